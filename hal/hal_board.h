@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// A board: its devices by handle, and the table that says which they are.
+#ifndef HAL_BOARD_H
+#define HAL_BOARD_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "hal/hal_camera.h"
+#include "hal/hal_can.h"
+#include "hal/hal_display.h"
+#include "hal/hal_gpio.h"
+#include "hal/hal_status.h"
+#include "hal/hal_time.h"
+#include "hal/hal_watchdog.h"
+
+/** The open devices of one board. Handles are opaque; each HAL defines the structs behind them. */
+typedef struct {
+    hal_can_t *can;
+    hal_camera_t *camera;
+    hal_display_t *display;
+    hal_gpio_t *gpio;
+    hal_time_t *clock;
+    hal_watchdog_t *watchdog;
+} hal_board_t;
+
+/** What a board is made of: one constant of this type in board/NAME/board.c. Names are the HAL's own. */
+typedef struct {
+    const char *name;    /**< of the board, as in BOARD=NAME */
+    const char *can;     /**< bus: an interface (can0), or in the simulator a port of 127.0.0.1 */
+    const char *camera;  /**< video source: a device, or in the simulator a picture or video file, or "pattern" */
+    const char *display; /**< where pictures go: a connector, or in the simulator a folder, or "none" */
+} board_table_t;
+
+extern const board_table_t board_table;
+
+/** What the room file asks of the devices. */
+typedef struct {
+    int32_t picture_width, picture_height; /**< of the camera's pictures, pixels */
+    int32_t panel_width, panel_height;     /**< of the projector, pixels */
+    int32_t bitrate, data_bitrate;         /**< of the bus, bit/s */
+    bool fd;                               /**< the bus carries CAN FD */
+} hal_board_needs_t;
+
+/**
+ * Open every device of the board, in order; on failure close those already open, in reverse.
+ *
+ * @param[out] board   Written only when HAL_OK is returned.
+ * @param      table   Which devices; must live as long as the board is open.
+ * @param      needs   Sizes and rates.
+ * @param[out] error   On failure: one line, what failed, with which device, and what to do. 256 bytes.
+ * @return HAL_OK; HAL_BAD_CALL when a name or size is wrong; HAL_IO when a device is missing or refuses.
+ */
+MUST_CHECK hal_status_t hal_board_open(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                                       char error[256]);
+
+/** Close every device, in reverse, and leave the outputs in their safe state. */
+void hal_board_close(hal_board_t *board);
+
+#endif

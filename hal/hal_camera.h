@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Contract of a video source: a camera sensor, an HDMI receiver, or a file in the simulator.
+#ifndef HAL_CAMERA_H
+#define HAL_CAMERA_H
+
+#include <stdint.h>
+
+#include "hal/hal_status.h"
+#include "warp_fixed/image.h"
+
+typedef struct hal_camera hal_camera_t;
+
+/** One captured picture, lent by the driver until it is released. */
+typedef struct {
+    image_t image;           /**< read only; XRGB8888 or GRAY8, of the size the room file states */
+    int64_t capture_time_us; /**< when its first line was captured, on hal_time's clock */
+    uint32_t sequence;       /**< the source's own count; a gap means lost pictures */
+} hal_camera_frame_t;
+
+/**
+ * Take the newest captured picture, without blocking. Older ones that were never taken are dropped.
+ *
+ * @param      camera  An open camera.
+ * @param[out] frame   Written only when HAL_OK is returned. The pixels stay valid and unchanged until
+ *                     hal_camera_release(). The caller may hold two pictures at a time.
+ * @return HAL_OK      a picture newer than any taken before;
+ *         HAL_EMPTY   none since the last call;
+ *         HAL_FULL    two pictures are held already, release one first;
+ *         HAL_IO      unplugged or failed; the handle stays good and delivers again when the source is back.
+ */
+MUST_CHECK hal_status_t hal_camera_take(hal_camera_t *camera, hal_camera_frame_t *frame);
+
+/** Give a taken picture back. The frame's pixels must not be touched afterwards. */
+void hal_camera_release(hal_camera_t *camera, const hal_camera_frame_t *frame);
+
+#endif

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Contract of the projector's own display: draw into a back buffer, show it at the next vertical blank.
+#ifndef HAL_DISPLAY_H
+#define HAL_DISPLAY_H
+
+#include <stdint.h>
+
+#include "hal/hal_status.h"
+#include "warp_fixed/image.h"
+
+typedef struct hal_display hal_display_t;
+
+/**
+ * Borrow the buffer that will be shown next.
+ *
+ * @param[out] buffer  Written only when HAL_OK is returned: XRGB8888 of the projector's size, contents unspecified,
+ *                     the caller's alone until hal_display_present().
+ * @return HAL_OK; HAL_FULL when every buffer still waits to be shown; HAL_IO when the display is gone.
+ */
+MUST_CHECK hal_status_t hal_display_back_buffer(hal_display_t *display, image_t *buffer);
+
+/**
+ * Show the borrowed back buffer from the next vertical blank on. Returns at once; never tears.
+ *
+ * @return HAL_OK; HAL_BAD_CALL when no buffer is borrowed; HAL_IO when the flip was refused: the wall keeps its
+ *         last picture and the buffer counts as given back.
+ */
+MUST_CHECK hal_status_t hal_display_present(hal_display_t *display);
+
+/** @return When a buffer presented now reaches the wall: the next vertical blank, us on hal_time's clock. */
+int64_t hal_display_next_vblank_us(const hal_display_t *display);
+
+/**
+ * Sleep until the next vertical blank: the firmware's only wait.
+ *
+ * @return HAL_OK after the blank; HAL_IO when none came within 100 ms (display gone, cable out): go on all the same.
+ */
+MUST_CHECK hal_status_t hal_display_wait_vblank(hal_display_t *display);
+
+#endif

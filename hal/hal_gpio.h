@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Contract of the board's few digital lines, named by what they do.
+#ifndef HAL_GPIO_H
+#define HAL_GPIO_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "hal/hal_status.h"
+
+typedef struct hal_gpio hal_gpio_t;
+
+typedef enum {
+    HAL_GPIO_LED,     /**< output: state of the board, for people */
+    HAL_GPIO_STROBE,  /**< output: high while a new picture is being made, for a scope */
+    HAL_GPIO_GENLOCK, /**< input: rising edge once per house frame */
+    HAL_GPIO_LINES
+} hal_gpio_line_t;
+
+/**
+ * Drive an output.
+ *
+ * @return HAL_OK; HAL_BAD_CALL when the line is an input; HAL_IO when the driver fails (the level is then unknown).
+ */
+MUST_CHECK hal_status_t hal_gpio_set(hal_gpio_t *gpio, hal_gpio_line_t line, bool high);
+
+/**
+ * Take the oldest rising edge of an input, without blocking. At least 16 are kept, then the oldest is dropped.
+ *
+ * @param[out] time_us  When it rose, on hal_time's clock; written only when HAL_OK is returned.
+ * @return HAL_OK; HAL_EMPTY when none is waiting; HAL_BAD_CALL when the line is an output; HAL_IO.
+ */
+MUST_CHECK hal_status_t hal_gpio_take_edge(hal_gpio_t *gpio, hal_gpio_line_t line, int64_t *time_us);
+
+#endif
