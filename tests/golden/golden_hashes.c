@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Prints one line per case, "name hash": the bytes that every compiler, optimisation and CPU must make.
+//
+// The reference is hashes.txt beside this file. No library, no file, no float: it runs wherever warp_fixed does.
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "warp_fixed/warp.h"
+
+enum { PICTURE_WIDTH = 250, PICTURE_HEIGHT = 141, PANEL_WIDTH = 222, PANEL_HEIGHT = 125 };
+
+typedef struct {
+    const char *name;
+    pose_t pose;
+} viewpoint_t;
+
+/* 2.5 m from a wall of 4 m x 2.25 m: straight, from 40 degrees rolled by 10, grazing, and close with roll 100. */
+static const viewpoint_t viewpoints[4] = {
+    {"straight", {{0, 0, -2500000000}, {1073741824, 0, 0, 0}}},
+    {"turned", {{1606969024, 0, -1915111108}, {1005144571, 32007280, -365842660, 87938280}}},
+    {"grazing", {{2462019383, 150000000, -434120444}, {822533959, 0, -690188097, 0}}},
+    {"close", {{300000000, -200000000, -400000000}, {690188097, 30000000, 20000000, 822533959}}},
+};
+
+static warp_t warp;
+static uint8_t picture_bytes[PICTURE_WIDTH * PICTURE_HEIGHT * 4], panel_bytes[PANEL_WIDTH * PANEL_HEIGHT * 4];
+
+/* FNV-1a, 64 bits. */
+static uint64_t hash_of(const void *bytes, size_t count)
+{
+    const uint8_t *byte = bytes;
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < count; i++)
+        hash = (hash ^ byte[i]) * 0x100000001b3u;
+    return hash;
+}
+
+/* Edges, ramps and noise. */
+static void paint(void)
+{
+    uint32_t noise = 1;
+    for (int y = 0; y < PICTURE_HEIGHT; y++) {
+        for (int x = 0; x < PICTURE_WIDTH; x++) {
+            for (int c = 0; c < 4; c++) {
+                noise = noise * 1664525u + 1013904223u;
+                const int pattern = (x / 16 + y / 16) % 3;
+                const int level = pattern == 0 ? (int)(noise >> 24) : pattern == 1 ? (x * 5 + y * 3 + c * 40) % 256
+                                                                                   : ((x ^ y) & 1) * 255;
+                picture_bytes[(y * PICTURE_WIDTH + x) * 4 + c] = (uint8_t)level;
+            }
+        }
+    }
+}
+
+static void print_frame(const viewpoint_t *viewpoint, const warp_method_t *method, image_format_t format)
+{
+    const wall_corners_t corners = {.panel_width = PANEL_WIDTH,
+                                    .panel_height = PANEL_HEIGHT,
+                                    .corner_um = {{-2000000, -1125000, 0}, {2000000, -1125000, 0},
+                                                  {1950000, 1125000, 0}, {-2000000, 1105000, 0}},
+                                    .corner_known = {true, true, true, true}};
+    const camera_t camera = {PICTURE_WIDTH, PICTURE_HEIGHT, {156250000, 156666667}, {125000000, 70500000}};
+    const uint8_t border[3] = {1, 2, 3};
+    const image_t picture = {picture_bytes, PICTURE_WIDTH, PICTURE_HEIGHT, PICTURE_WIDTH * (int32_t)format, format};
+    const image_t panel = {panel_bytes, PANEL_WIDTH, PANEL_HEIGHT, PANEL_WIDTH * (int32_t)format, format};
+    wall_t wall;
+    homography_t homography;
+    warp_report_t report;
+    memset(panel_bytes, 0, sizeof(panel_bytes));
+    warp_init(&warp, *method, false, border);
+    const bool made = wall_from_corners(&wall, &corners) == WALL_OK &&
+                      homography_from_pose(&homography, &camera, &wall, &viewpoint->pose) &&
+                      warp_frame(&warp, &warp_kernels_scalar, &report, &homography, &panel, &picture);
+    printf("%s/%s/%s %016" PRIx64 " k_in %" PRId32 " k_all %" PRId32 " lit %" PRId32 "%s\n", viewpoint->name,
+           method->name, format == IMAGE_GRAY8 ? "gray" : "xrgb", hash_of(panel_bytes, sizeof(panel_bytes)),
+           report.k_in_q16, report.k_all_q16, report.lit_pixels, made ? "" : " NOT MADE");
+}
+
+int main(void)
+{
+    paint();
+    for (int v = 0; v < 4; v++) {
+        for (int m = 0; m < WARP_METHODS; m++) {
+            print_frame(&viewpoints[v], &warp_methods[m], IMAGE_GRAY8);
+            print_frame(&viewpoints[v], &warp_methods[m], IMAGE_XRGB8888);
+        }
+    }
+    window_weights_init(&warp.weights, WARP_AREA);
+    printf("weights/area %016" PRIx64 "\n", hash_of(warp.weights.second, sizeof(int16_t) * PHASES * 256));
+    for (int32_t k_q16 = 70000; k_q16 < 4000000; k_q16 += 700000) {
+        fir_t fir = {.radius = 0};
+        prefilter_gauss(&fir, k_q16);
+        printf("gauss/%" PRId32 " %016" PRIx64 "\n", k_q16, hash_of(&fir, sizeof(fir)));
+    }
+    return 0;
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Halved levels of a picture: means of blocks, mirrored beyond the edge, made once per frame.
+#include "warp_fixed/levels.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include "tests/support/rng.h"
+#include "warp_fixed/fixed.h"
+
+static levels_t levels;
+static uint8_t pixels[150 * 100 * 4];
+
+static void levels_are_means(void **state)
+{
+    (void)state;
+    rng_t rng = {3};
+    for (size_t i = 0; i < sizeof(pixels); i++)
+        pixels[i] = (uint8_t)rng_next(&rng);
+    const image_t picture = {pixels, 150, 100, 150 * 4, IMAGE_XRGB8888};
+    levels_begin(&levels);
+    assert_ptr_equal(levels_picture(&levels, &picture, 0, 0).data, pixels);
+    for (int lx = 0; lx < LEVELS; lx++) {
+        for (int ly = lx == 0 ? 1 : 0; ly < LEVELS; ly++) {
+            const image_t level = levels_picture(&levels, &picture, lx, ly);
+            const int32_t step_x = 1 << 3 * lx, step_y = 1 << 3 * ly;
+            assert_int_equal(level.width, (150 + step_x - 1) / step_x);
+            assert_int_equal(level.height, (100 + step_y - 1) / step_y);
+            for (int32_t y = 0; y < level.height; y++) {
+                for (int32_t x = 0; x < level.width * 4; x++) {
+                    int32_t sum = 0;
+                    for (int32_t v = 0; v < step_y; v++)
+                        for (int32_t u = 0; u < step_x; u++)
+                            sum += pixels[(mirror_index(y * step_y + v, 100) * 150 +
+                                           mirror_index(x / 4 * step_x + u, 150)) * 4 + x % 4];
+                    assert_int_equal(image_row(&level, y)[x], (sum + step_x * step_y / 2) / (step_x * step_y));
+                }
+            }
+        }
+    }
+}
+
+static void levels_are_made_once_a_frame(void **state)
+{
+    (void)state;
+    const image_t picture = {pixels, 64, 64, 64, IMAGE_GRAY8};
+    levels_begin(&levels);
+    const uint8_t before = levels_picture(&levels, &picture, 1, 1).data[0];
+    for (int i = 0; i < 64 * 64; i++)
+        pixels[i] = (uint8_t)(before ^ 0x40);
+    assert_int_equal(levels_picture(&levels, &picture, 1, 1).data[0], before);
+    levels_begin(&levels);
+    assert_int_equal(levels_picture(&levels, &picture, 1, 1).data[0], before ^ 0x40);
+}
+
+static void the_largest_picture_fits(void **state)
+{
+    (void)state;
+    const image_t largest = {NULL, IMAGE_MAX_WIDTH, IMAGE_MAX_HEIGHT, 0, IMAGE_XRGB8888};
+    levels_begin(&levels);
+    for (int lx = 0; lx < LEVELS; lx++)
+        for (int ly = 0; ly < LEVELS; ly++)
+            levels.made[lx][ly] = true; /* views only: nothing is read */
+    for (int lx = 0; lx < LEVELS; lx++) {
+        for (int ly = lx == 0 ? 1 : 0; ly < LEVELS; ly++) {
+            const image_t level = levels_picture(&levels, &largest, lx, ly);
+            assert_true(level.data >= levels.pixels);
+            assert_true(level.data + (ptrdiff_t)level.stride * level.height <= levels.pixels + LEVELS_BYTES);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(levels_are_means),
+        cmocka_unit_test(levels_are_made_once_a_frame),
+        cmocka_unit_test(the_largest_picture_fits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// The fixed-point formats of the frame path, with their rounding and saturation: only here.
+//
+// Positions  Q18 int32: 13 integer bits reach +-8192 px, 18 fraction bits leave the grid's forward differences exact
+//            to 2^-12 px over a span of 32.
+// Phases     Kernels see positions rounded to 1/128 px (1/64 would cost 0.02 dB, 0.1 where projector pixels are small).
+// Sums       Both passes of prefilter and window go from 8 bits to 8 bits through 16:
+//            first pass   v = sum(w1 * p), the weights' sum S1 is 128 (or 255 where no weight is negative);
+//                         v fits 16 bits, so vector code needs 8 x 8 bit multiplies only;
+//            second pass  out = (sum(w2 * v) + 2^21) >> 22, the weights' sum S2 is chosen so that S1 * S2 = 2^22,
+//                         nearly: 32767 for 128 and 16448 for 255. A constant picture comes out unchanged:
+//                         |S1 * S2 - 2^22| <= 128 is at most 0.008 of a grey level.
+#ifndef WARP_FIXED_FIXED_H
+#define WARP_FIXED_FIXED_H
+
+#include <stdint.h>
+
+enum {
+    GRID_FRACTION_BITS = 18,
+    PHASE_BITS = 7,
+    PHASES = 1 << PHASE_BITS,
+    FIRST_SUM = 128,
+    SECOND_SUM = 32767,
+    FIRST_SUM_POSITIVE = 255,
+    SECOND_SUM_POSITIVE = 16448,
+    SUM_SHIFT = 22,
+    LONG_FIRST_SHIFT = 6 /**< long filters have this many more bits in the first pass, and lose them before the second */
+};
+
+/** 64 x 64 -> 128 bit products, for the geometry only. */
+__extension__ typedef __int128 int128_t;
+__extension__ typedef unsigned __int128 uint128_t;
+
+/** @return x / 2^shift, rounded down; shift 0 to 63. Every compiler named in the README shifts arithmetically. */
+static inline int64_t floor_shift(int64_t x, int shift)
+{
+    return x >> shift;
+}
+
+/** @return x / 2^shift to nearest, ties up; 1 <= shift <= 62, |x| < 2^62. */
+static inline int64_t round_shift(int64_t x, int shift)
+{
+    return (x + ((int64_t)1 << (shift - 1))) >> shift;
+}
+
+static inline int32_t clamp_i32(int32_t x, int32_t low, int32_t high)
+{
+    return x < low ? low : x > high ? high : x;
+}
+
+static inline int64_t clamp_i64(int64_t x, int64_t low, int64_t high)
+{
+    return x < low ? low : x > high ? high : x;
+}
+
+/** @return The second pass's sum as a grey level, 0 to 255. */
+static inline uint8_t pixel_from_sum(int32_t sum)
+{
+    return (uint8_t)clamp_i32((sum + (1 << (SUM_SHIFT - 1))) >> SUM_SHIFT, 0, 255);
+}
+
+/** @return floor(sqrt(x)). 32 steps. */
+static inline uint32_t floor_sqrt(uint64_t x)
+{
+    uint64_t root = 0;
+    for (uint64_t bit = (uint64_t)1 << 62; bit != 0; bit >>= 2) {
+        if (x >= root + bit) {
+            x -= root + bit;
+            root = (root >> 1) + bit;
+        } else {
+            root >>= 1;
+        }
+    }
+    return (uint32_t)root;
+}
+
+/**
+ * @return Where texel i of an axis of `size` texels is found when the picture is continued by half-sample mirroring:
+ *         ... 1 0 | 0 1 ... size-1 | size-1 size-2 ...
+ */
+static inline int32_t mirror_index(int32_t i, int32_t size)
+{
+    const int32_t period = 2 * size;
+    int32_t m = i % period;
+    if (m < 0)
+        m += period;
+    return m < size ? m : period - 1 - m;
+}
+
+#endif

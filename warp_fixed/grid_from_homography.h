@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Homography -> where every lit projector pixel falls in the picture, in Q18 integers.
+//
+// A row of the panel is first clipped to its lit pixels. Within it, each aligned block of 2^n pixels has one exact
+// point, in its middle; the others follow from it by a quadratic, evaluated with integer forward differences. n is
+// chosen per row from a proved bound, so that a point errs by less than 1/256 px (see the proof in the .c file).
+// A point depends on its pixel and the homography only, never on the order in which pixels are visited.
+#ifndef WARP_FIXED_GRID_FROM_HOMOGRAPHY_H
+#define WARP_FIXED_GRID_FROM_HOMOGRAPHY_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "warp_fixed/homography_from_pose.h"
+#include "warp_fixed/image.h"
+
+enum { GRID_MAX_SPAN = 32 };
+
+/** u * U + v * V + c, where (U, V) = (2 i + 1, 2 j + 1) is a pixel's centre in half pixels. |value| < 2^60. */
+typedef struct {
+    int64_t u, v, c;
+} grid_linear_t;
+
+/** Lit pixels [begin, end) of one row, and log2 of the length of its blocks. */
+typedef struct {
+    int16_t begin, end;
+    uint8_t span_log2;
+} grid_row_t;
+
+typedef struct {
+    int32_t panel_width, panel_height;
+    int32_t picture_width, picture_height;
+    grid_linear_t x, y, w;  /**< picture point = (x, y) / w * 2^(x, y)_exponent */
+    int32_t x_exponent, y_exponent;
+    grid_row_t row[IMAGE_MAX_HEIGHT];
+} grid_t;
+
+/** Points of one block: x(k) = x + k dx + k (k - 1) / 2 ddx, in Q18 picture pixels, modulo 2^32; y likewise. */
+typedef struct {
+    int32_t x, dx, ddx;
+    int32_t y, dy, ddy;
+} grid_quadratic_t;
+
+/** Partial derivatives of the picture point by the panel pixel, Q16, saturated to +-2^31. */
+typedef struct {
+    int64_t x_by_u, x_by_v, y_by_u, y_by_v;
+} grid_jacobian_t;
+
+/**
+ * Plan a frame's grid: linear forms, lit pixels and block length of every row.
+ *
+ * A pixel is lit when its depth is positive and its square, widened by an eighth of a pixel on each side, can reach
+ * the picture. O(rows).
+ *
+ * @param[out] grid  All of it is written but the rows beyond the panel.
+ */
+void grid_from_homography(grid_t *grid, const homography_t *homography);
+
+/**
+ * The quadratic of one block.
+ *
+ * @param begin  First pixel: a multiple of the row's block length, or the row's begin.
+ * @param end    One past the last: the next multiple, or the row's end.
+ */
+grid_quadratic_t grid_block(const grid_t *grid, int32_t j, int32_t begin, int32_t end);
+
+/** @return One past the last pixel of the block that holds lit pixel i of row j. */
+int32_t grid_block_end(const grid_t *grid, int32_t j, int32_t i);
+
+/** The point of one lit pixel, as every frame uses it. @return false, and nothing written, when it is not lit. */
+bool grid_point(const grid_t *grid, int32_t i, int32_t j, int32_t *x_q18, int32_t *y_q18);
+
+/** @return The derivatives at the centre of a pixel of positive depth. */
+grid_jacobian_t grid_jacobian(const grid_t *grid, int32_t i, int32_t j);
+
+#endif

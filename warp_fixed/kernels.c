@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of pixel loops.
+#include "warp_fixed/kernels.h"
+
+#include "warp_fixed/kernels_scalar.h"
+
+const warp_kernels_t warp_kernels_scalar = {
+    .name = "scalar",
+    .grid_points = grid_points_scalar,
+    .nearest_gray = resample_nearest_gray_scalar,
+    .nearest_xrgb = resample_nearest_xrgb_scalar,
+    .window_gray = resample_window_gray_scalar,
+    .window_xrgb = resample_window_xrgb_scalar,
+    .prefilter_columns = prefilter_columns_scalar,
+    .prefilter_row = prefilter_row_scalar,
+};

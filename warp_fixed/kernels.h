@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pixel loops: one function type each, one table of pointers per CPU level. Scalar C is the definition.
+//
+// Every implementation writes the same bytes, and not one byte more. None allocates, keeps state or reads outside the
+// pixels named. Counts may be 0 and need not be a multiple of anything.
+#ifndef WARP_FIXED_KERNELS_H
+#define WARP_FIXED_KERNELS_H
+
+#include <stdint.h>
+
+#include "warp_fixed/grid_from_homography.h"
+#include "warp_fixed/image.h"
+#include "warp_fixed/window_weights.h"
+
+/**
+ * Write the points of a block: forward differences modulo 2^32.
+ *
+ * @param[out] x_q18, y_q18  count points.
+ * @param      count         0 to GRID_MAX_SPAN.
+ */
+typedef void grid_points_fn(int32_t *restrict x_q18, int32_t *restrict y_q18, const grid_quadratic_t *block,
+                            int32_t count);
+
+/**
+ * Take the picture pixel under each point: floor of the point clamped to the picture.
+ *
+ * @param[out] out      count pixels of the picture's format.
+ * @param      picture  The source.
+ * @param      x_q18, y_q18  count points; clamped here to [0, width] and [0, height].
+ */
+typedef void resample_nearest_fn(uint8_t *restrict out, const image_t *picture, const int32_t *restrict x_q18,
+                                 const int32_t *restrict y_q18, int32_t count);
+
+/** Weights of a window along both axes, and the picture's place in the levels. */
+typedef struct {
+    window_axis_t x, y;
+    image_t picture;       /**< at its level */
+    int32_t width, height; /**< of level 0: points are clamped to it */
+    int level_x, level_y;  /**< a point is divided by 8^level */
+} window_t;
+
+/**
+ * Weigh the window of texels around each point (window_weights.h). Texels beyond the picture's edge are mirrored.
+ *
+ * v = (sum_y first * texel + half) >> first_shift for each column, out = pixel_from_sum(sum_x second * v), per channel.
+ *
+ * @param[out] out      count pixels of the picture's format.
+ * @param      x_q18, y_q18  count points; clamped here to the picture.
+ */
+typedef void resample_window_fn(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
+                                const int32_t *restrict y_q18, int32_t count);
+
+enum {
+    PREFILTER_MAX_RADIUS = 68, /**< 4 sigma at the largest k, 64 */
+    PREFILTER_SHORT_RADIUS = 3 /**< up to here the first pass has 8-bit weights */
+};
+
+/** A symmetric FIR filter, in the two formats of fixed.h. */
+typedef struct {
+    int32_t radius;
+    int32_t first_shift;                        /**< 0, or LONG_FIRST_SHIFT when radius > PREFILTER_SHORT_RADIUS */
+    int16_t first[PREFILTER_MAX_RADIUS + 1];    /**< of distance 0, 1, ...: first[0] + 2 sum = FIRST_SUM << first_shift */
+    int16_t second[PREFILTER_MAX_RADIUS + 1];   /**< likewise, SECOND_SUM */
+} fir_t;
+
+/**
+ * First pass of the prefilter: one output row from 2 radius + 1 rows, column by column.
+ *
+ * @param[out] v      count sums, each (sum first * byte + half) >> first_shift.
+ * @param      rows   rows[0] to rows[2 radius], each of count bytes.
+ * @param      count  Bytes of a row: width times channels.
+ */
+typedef void prefilter_columns_fn(int16_t *restrict v, const uint8_t *const *rows, const fir_t *fir, int32_t count);
+
+/**
+ * Second pass: one row of bytes from the first pass's sums.
+ *
+ * @param[out] out       count bytes.
+ * @param      v         v[-radius * channels] to v[count + radius * channels - 1] are read.
+ * @param      channels  Distance between neighbours of one channel: 1 or 4.
+ */
+typedef void prefilter_row_fn(uint8_t *restrict out, const int16_t *restrict v, const fir_t *fir, int32_t count,
+                              int32_t channels);
+
+/** The loops of one CPU level. */
+typedef struct {
+    const char *name;
+    grid_points_fn *grid_points;
+    resample_nearest_fn *nearest_gray, *nearest_xrgb;
+    resample_window_fn *window_gray, *window_xrgb;
+    prefilter_columns_fn *prefilter_columns;
+    prefilter_row_fn *prefilter_row;
+} warp_kernels_t;
+
+/** Plain C: the definition of every loop. */
+extern const warp_kernels_t warp_kernels_scalar;
+
+#endif

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names of the methods: a prefilter and a way to resample.
+#include "warp_fixed/method.h"
+
+#include <stddef.h>
+
+const warp_method_t warp_methods[WARP_METHODS] = {
+    {"none+nearest", WARP_FILTER_NONE, WARP_NEAREST},   {"none+linear", WARP_FILTER_NONE, WARP_LINEAR},
+    {"none+cubic", WARP_FILTER_NONE, WARP_CUBIC},       {"gauss+nearest", WARP_FILTER_GAUSS, WARP_NEAREST},
+    {"gauss+linear", WARP_FILTER_GAUSS, WARP_LINEAR},   {"gauss+cubic", WARP_FILTER_GAUSS, WARP_CUBIC},
+    {"area", WARP_FILTER_NONE, WARP_AREA},              {"mean+cubic", WARP_FILTER_NONE, WARP_MEAN_CUBIC},
+};
+
+static bool same_text(const char *a, const char *b)
+{
+    while (*a != '\0' && *a == *b) {
+        a++;
+        b++;
+    }
+    return *a == *b;
+}
+
+const warp_method_t *warp_method_from_name(const char *name)
+{
+    for (int i = 0; i < WARP_METHODS; i++)
+        if (same_text(warp_methods[i].name, name))
+            return &warp_methods[i];
+    return NULL;
+}
+
+const warp_method_t *warp_method_default(void)
+{
+    return &warp_methods[WARP_METHODS - 1];
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// A window of texels around each point, weighed along both axes: every interpolation and mean but nearest neighbour.
+#include <string.h>
+
+#include "warp_fixed/fixed.h"
+#include "warp_fixed/kernels_scalar.h"
+
+enum { PATCH_STRIDE = 4 * WINDOW_MAX_TAPS };
+
+/* Where a window begins along one axis, and its rows of weights. */
+typedef struct {
+    int32_t begin;
+    const int16_t *first, *second;
+} place_t;
+
+/* size is of level 0, in pixels; the point is clamped to it, rounded to a phase of its level. */
+static place_t place_of(const window_axis_t *axis, int32_t point_q18, int32_t size, int level)
+{
+    const int32_t clamped = clamp_i32(point_q18, 0, size << GRID_FRACTION_BITS) >> (3 * level);
+    const int32_t rounding = GRID_FRACTION_BITS - PHASE_BITS;
+    const int32_t from_centre = ((clamped + (1 << (rounding - 1))) >> rounding) - PHASES / 2;
+    const int32_t phase = from_centre & (PHASES - 1);
+    const int32_t row = phase * axis->taps;
+    return (place_t){(from_centre >> PHASE_BITS) + axis->start[phase], axis->first + row, axis->second + row};
+}
+
+/* The texels of a window that reaches beyond the picture, gathered with mirroring into patch. */
+static void gather_mirrored(uint8_t *patch, const window_t *window, int32_t x, int32_t y)
+{
+    const image_t *picture = &window->picture;
+    const int32_t channels = (int32_t)picture->format;
+    for (int32_t v = 0; v < window->y.taps; v++) {
+        const uint8_t *row = image_row(picture, mirror_index(y + v, picture->height));
+        for (int32_t u = 0; u < window->x.taps; u++)
+            memcpy(patch + v * PATCH_STRIDE + u * channels, row + mirror_index(x + u, picture->width) * channels,
+                   (size_t)channels);
+    }
+}
+
+/* One pixel. Always inlined with a constant number of channels, so that the compiler can unroll over them. */
+static inline void weigh(uint8_t *out, const window_t *window, int32_t x_q18, int32_t y_q18, int32_t channels)
+{
+    const image_t *picture = &window->picture;
+    const int32_t nx = window->x.taps, ny = window->y.taps;
+    const place_t x = place_of(&window->x, x_q18, window->width, window->level_x);
+    const place_t y = place_of(&window->y, y_q18, window->height, window->level_y);
+    uint8_t patch[WINDOW_MAX_TAPS * PATCH_STRIDE];
+    const uint8_t *texels = patch;
+    ptrdiff_t stride = PATCH_STRIDE;
+    if (x.begin >= 0 && x.begin + nx <= picture->width && y.begin >= 0 && y.begin + ny <= picture->height) {
+        texels = image_row(picture, y.begin) + x.begin * channels;
+        stride = picture->stride;
+    } else {
+        gather_mirrored(patch, window, x.begin, y.begin);
+    }
+
+    int32_t v[4 * WINDOW_MAX_TAPS];
+    const int32_t half = (1 << window->y.first_shift) >> 1;
+    for (int32_t u = 0; u < nx * channels; u++)
+        v[u] = half;
+    for (int32_t t = 0; t < ny; t++)
+        for (int32_t u = 0; u < nx * channels; u++)
+            v[u] += y.first[t] * texels[t * stride + u];
+    for (int32_t channel = 0; channel < channels; channel++) {
+        int32_t sum = 0;
+        for (int32_t u = 0; u < nx; u++)
+            sum += x.second[u] * (v[u * channels + channel] >> window->y.first_shift);
+        out[channel] = pixel_from_sum(sum);
+    }
+}
+
+void resample_window_gray_scalar(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
+                                 const int32_t *restrict y_q18, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++)
+        weigh(out + k, window, x_q18[k], y_q18[k], 1);
+}
+
+void resample_window_xrgb_scalar(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
+                                 const int32_t *restrict y_q18, int32_t count)
+{
+    for (int32_t k = 0; k < count; k++)
+        weigh(out + 4 * k, window, x_q18[k], y_q18[k], 4);
+}

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// One corrected frame: homography + picture -> what the projector must show.
+#include "warp_fixed/warp.h"
+
+#include <stddef.h>
+
+#include "warp_fixed/fixed.h"
+
+/* What the rows of one frame share. */
+typedef struct {
+    warp_t *warp;
+    const warp_kernels_t *kernels;
+    const image_t *panel;
+    image_t picture; /* after the prefilter */
+    window_t window[IMAGE_MAX_WIDTH / FOOTPRINT_BLOCK]; /* of the present band's blocks */
+} frame_t;
+
+void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t border[3])
+{
+    warp->method = method;
+    warp->step_all = step_all;
+    for (int channel = 0; channel < 3; channel++)
+        warp->border[channel] = border[2 - channel];
+    warp->border[3] = 0;
+    window_weights_init(&warp->weights, method.resampler);
+    prefilter_init(&warp->prefilter);
+    levels_begin(&warp->levels);
+}
+
+static void fill_border(const warp_t *warp, const image_t *panel, int32_t j, int32_t begin, int32_t end)
+{
+    const int32_t channels = (int32_t)panel->format;
+    uint8_t *out = image_row(panel, j) + begin * channels;
+    for (int32_t i = begin; i < end; i++)
+        for (int32_t channel = 0; channel < channels; channel++)
+            *out++ = warp->border[channel];
+}
+
+/* Weights and level of every lit block of a band. */
+static void choose_windows(frame_t *frame, int32_t band)
+{
+    warp_t *warp = frame->warp;
+    const warp_resampler_t resampler = warp->method.resampler;
+    footprint_band(&warp->band, &warp->grid, band);
+    for (int32_t b = warp->band.begin; b < warp->band.end; b++) {
+        const window_side_t x = window_side(resampler, warp->band.block[b].width_q16);
+        const window_side_t y = window_side(resampler, warp->band.block[b].height_q16);
+        frame->window[b] = (window_t){
+            .x = window_axis(&warp->weights, x.side),
+            .y = window_axis(&warp->weights, y.side),
+            .picture = levels_picture(&warp->levels, &frame->picture, x.level, y.level),
+            .width = frame->picture.width,
+            .height = frame->picture.height,
+            .level_x = x.level,
+            .level_y = y.level,
+        };
+    }
+}
+
+/* Resample pixels [begin, end) of row j, whose points are x and y; the pieces of each footprint block in turn. */
+static void resample(const frame_t *frame, int32_t j, int32_t begin, int32_t end, const int32_t *x, const int32_t *y)
+{
+    const warp_kernels_t *kernels = frame->kernels;
+    const bool gray = frame->panel->format == IMAGE_GRAY8;
+    uint8_t *row = image_row(frame->panel, j);
+    const int32_t channels = (int32_t)frame->panel->format;
+    if (frame->warp->method.resampler == WARP_NEAREST) {
+        resample_nearest_fn *nearest = gray ? kernels->nearest_gray : kernels->nearest_xrgb;
+        nearest(row + begin * channels, &frame->picture, x, y, end - begin);
+        return;
+    }
+    resample_window_fn *window = gray ? kernels->window_gray : kernels->window_xrgb;
+    for (int32_t i = begin; i < end;) {
+        const int32_t block = i / FOOTPRINT_BLOCK, block_end = (block + 1) * FOOTPRINT_BLOCK;
+        const int32_t piece_end = block_end < end ? block_end : end;
+        window(row + i * channels, &frame->window[block], x + (i - begin), y + (i - begin), piece_end - i);
+        i = piece_end;
+    }
+}
+
+static void make_row(const frame_t *frame, int32_t j)
+{
+    const grid_t *grid = &frame->warp->grid;
+    const grid_row_t *row = &grid->row[j];
+    int32_t x_q18[GRID_MAX_SPAN], y_q18[GRID_MAX_SPAN];
+    fill_border(frame->warp, frame->panel, j, 0, row->begin);
+    for (int32_t begin = row->begin; begin < row->end;) {
+        const int32_t end = grid_block_end(grid, j, begin);
+        const grid_quadratic_t block = grid_block(grid, j, begin, end);
+        frame->kernels->grid_points(x_q18, y_q18, &block, end - begin);
+        resample(frame, j, begin, end, x_q18, y_q18);
+        begin = end;
+    }
+    fill_border(frame->warp, frame->panel, j, row->end, frame->panel->width);
+}
+
+static bool image_fits(const image_t *image, int32_t width, int32_t height, image_format_t format)
+{
+    return image->width == width && image->height == height && image->format == format && width >= 1 &&
+           height >= 1 && width <= IMAGE_MAX_WIDTH && height <= IMAGE_MAX_HEIGHT;
+}
+
+bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *report, const homography_t *homography,
+                const image_t *panel, const image_t *picture)
+{
+    if (!image_fits(panel, homography->panel_width, homography->panel_height, panel->format) ||
+        !image_fits(picture, homography->picture_width, homography->picture_height, panel->format))
+        return false;
+
+    const footprint_step_t step = footprint_step(homography);
+    grid_from_homography(&warp->grid, homography);
+    levels_begin(&warp->levels);
+    frame_t frame = {.warp = warp, .kernels = kernels, .panel = panel, .picture = *picture};
+    if (warp->method.filter == WARP_FILTER_GAUSS)
+        frame.picture = prefilter_picture(&warp->prefilter, kernels, picture,
+                                          warp->step_all ? step.all_q16 : step.in_q16);
+
+    int32_t lit = 0;
+    for (int32_t j = 0; j < panel->height; j++) {
+        if (j % FOOTPRINT_BLOCK == 0 && warp->method.resampler != WARP_NEAREST)
+            choose_windows(&frame, j / FOOTPRINT_BLOCK);
+        make_row(&frame, j);
+        lit += warp->grid.row[j].end - warp->grid.row[j].begin;
+    }
+    if (report != NULL)
+        *report = (warp_report_t){step.in_q16, step.all_q16, lit};
+    return true;
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// One corrected frame: homography + picture -> what the projector must show.
+#ifndef WARP_FIXED_WARP_H
+#define WARP_FIXED_WARP_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "warp_fixed/footprint_from_homography.h"
+#include "warp_fixed/grid_from_homography.h"
+#include "warp_fixed/homography_from_pose.h"
+#include "warp_fixed/image.h"
+#include "warp_fixed/kernels.h"
+#include "warp_fixed/levels.h"
+#include "warp_fixed/method.h"
+#include "warp_fixed/prefilter.h"
+#include "warp_fixed/window_weights.h"
+
+/** Everything a board needs between and within frames; about 60 MB, most of it never touched by small pictures. */
+typedef struct {
+    warp_method_t method;
+    bool step_all;           /**< take k over the whole wall, not only over what lands in the picture */
+    uint8_t border[4];       /**< B, G, R, X of unlit pixels; border[0] alone for gray */
+    window_weights_t weights;
+    grid_t grid;
+    footprint_band_t band;
+    prefilter_t prefilter;
+    levels_t levels;
+} warp_t;
+
+/** What a frame turned out to be, for telemetry and evaluation. */
+typedef struct {
+    int32_t k_in_q16;   /**< step k over pixels in the picture (eq 4, 5), closed form; 0 when none is */
+    int32_t k_all_q16;  /**< step k over the whole wall; saturates when part of it is behind the viewer */
+    int32_t lit_pixels; /**< panel pixels that show picture */
+} warp_report_t;
+
+/**
+ * Prepare for a method: build its weight table. Takes some milliseconds; call it before the loop.
+ *
+ * @param[out] warp    Need not be initialised. Holds no pointer into itself or elsewhere: may be moved.
+ * @param      border  Colour of unlit pixels: R, G, B.
+ */
+void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t border[3]);
+
+/**
+ * Make one frame. Every panel pixel is written, nothing else.
+ *
+ * @param      kernels     Which implementation of the pixel loops.
+ * @param[out] report      May be NULL.
+ * @param      homography  Panel and picture sizes must be those of the images.
+ * @param      panel       Destination; must not overlap the picture.
+ * @param      picture     Source, of the panel's format.
+ * @return false, and nothing written, when sizes or formats disagree or exceed IMAGE_MAX_WIDTH x IMAGE_MAX_HEIGHT.
+ *
+ * No allocation. Time is bounded by panel pixels x 16 texels, plus a small multiple of the picture's own pixels for
+ * footprints larger than that.
+ */
+bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *report, const homography_t *homography,
+                const image_t *panel, const image_t *picture);
+
+#endif

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// One table of weights for every interpolating and averaging kernel, by side of the footprint and phase.
+#include "warp_fixed/window_weights.h"
+
+#include <stddef.h>
+
+/*
+ * Positions t here are in 1/128 px from a texel's centre, so that phases and half sides are whole.
+ * Values and integrals are exact integers on a scale of the kernel's own; only their ratios are used.
+ */
+typedef struct {
+    int32_t half_width;             /* of the kernel's support, 1/128 px */
+    bool positive;                  /* no weight is negative */
+    int64_t (*value)(int64_t t);    /* kernel */
+    int64_t (*integral)(int64_t t); /* running integral from 0, or NULL when it is only interpolated with */
+} kernel_t;
+
+enum { ONE = 128, PHASE = ONE / PHASES };
+
+static int64_t box_value(int64_t t)
+{
+    return t >= -ONE / 2 && t < ONE / 2;
+}
+
+static int64_t box_integral(int64_t t)
+{
+    return clamp_i64(t, -ONE / 2, ONE / 2);
+}
+
+static int64_t tent_value(int64_t t)
+{
+    return clamp_i64(ONE - (t < 0 ? -t : t), 0, ONE);
+}
+
+/* Keys 1981, a = -1/2, times 2 * 128^3: 3 t^3 - 5 t^2 + 2 up to 1, -t^3 + 5 t^2 - 8 t + 4 up to 2. */
+static int64_t keys_value(int64_t t)
+{
+    const int64_t a = t < 0 ? -t : t;
+    if (a >= 2 * ONE)
+        return 0;
+    if (a >= ONE)
+        return ((-a + 5 * ONE) * a - 8 * ONE * ONE) * a + 4 * ONE * ONE * ONE;
+    return (3 * a - 5 * ONE) * a * a + 2 * ONE * ONE * ONE;
+}
+
+/* Its integral times 24 * 128^4: 9 t^4 - 20 t^3 + 24 t up to 1, -3 t^4 + 20 t^3 - 48 t^2 + 48 t - 4 up to 2. */
+static int64_t keys_integral(int64_t t)
+{
+    const int64_t a = clamp_i64(t < 0 ? -t : t, 0, 2 * ONE);
+    const int64_t cube = (int64_t)ONE * ONE * ONE;
+    const int64_t size = a < ONE ? ((9 * a - 20 * ONE) * a * a + 24 * cube) * a
+                                 : (((-3 * a + 20 * ONE) * a - 48 * ONE * ONE) * a + 48 * cube) * a - 4 * cube * ONE;
+    return t < 0 ? -size : size;
+}
+
+static const kernel_t *kernel_of(warp_resampler_t resampler)
+{
+    static const kernel_t tent = {ONE, false, tent_value, NULL};
+    static const kernel_t keys = {2 * ONE, false, keys_value, keys_integral};
+    static const kernel_t box = {ONE / 2, true, box_value, box_integral};
+    switch (resampler) {
+    case WARP_LINEAR:
+        return &tent;
+    case WARP_CUBIC:
+    case WARP_MEAN_CUBIC:
+        return &keys;
+    case WARP_AREA:
+        return &box;
+    case WARP_NEAREST:
+        break;
+    }
+    return NULL;
+}
+
+/* Round exact[i] / sum(exact) * sum to integers whose sum is exact: largest remainders first, then lower index. */
+static void round_to_sum(int16_t *rounded, const int64_t *exact, int32_t taps, int32_t sum)
+{
+    int64_t total = 0, rest[WINDOW_MAX_TAPS];
+    for (int32_t i = 0; i < taps; i++)
+        total += exact[i];
+    int32_t missing = sum;
+    for (int32_t i = 0; i < taps; i++) {
+        const int64_t scaled = exact[i] * sum;
+        int64_t quotient = scaled / total;
+        rest[i] = scaled - quotient * total;
+        if (rest[i] < 0) {
+            rest[i] += total;
+            quotient--;
+        }
+        rounded[i] = (int16_t)quotient;
+        missing -= (int32_t)quotient;
+    }
+    for (; missing > 0; missing--) { /* fewer than taps */
+        int32_t largest = 0;
+        for (int32_t i = 1; i < taps; i++)
+            if (rest[i] > rest[largest])
+                largest = i;
+        rounded[largest]++;
+        rest[largest] = -1;
+    }
+}
+
+/* Side of a table entry in 1/64 px: see WINDOW_SIDES. */
+static int32_t side_q6(int32_t side)
+{
+    if (side < 64)
+        return side;
+    const int32_t octave = (side - 64) / 32;
+    return (64 + 2 * ((side - 64) % 32)) << octave;
+}
+
+static void fill_row(window_weights_t *weights, const kernel_t *kernel, int32_t side, int32_t phase)
+{
+    const int32_t s = side_q6(side), taps = weights->taps[side];
+    const int32_t start = (int32_t)floor_shift(PHASE * phase - kernel->half_width - s, 7) + 1;
+    const int32_t first_sum = kernel->positive ? FIRST_SUM_POSITIVE : FIRST_SUM;
+    const size_t at = weights->at[side] + (size_t)phase * (size_t)taps;
+    int64_t exact[WINDOW_MAX_TAPS];
+    for (int32_t i = 0; i < taps; i++) {
+        const int64_t t = PHASE * phase - ONE * (start + i);
+        exact[i] = s == 0 ? kernel->value(t) : kernel->integral(t + s) - kernel->integral(t - s);
+    }
+    weights->start[side][phase] = (int8_t)start;
+    round_to_sum(&weights->first[at], exact, taps,
+                 taps > WINDOW_SHORT_TAPS ? first_sum << LONG_FIRST_SHIFT : first_sum);
+    round_to_sum(&weights->second[at], exact, taps, kernel->positive ? SECOND_SUM_POSITIVE : SECOND_SUM);
+}
+
+void window_weights_init(window_weights_t *weights, warp_resampler_t resampler)
+{
+    const kernel_t *kernel = kernel_of(resampler);
+    if (kernel == NULL)
+        return;
+    const int32_t sides = resampler == WARP_AREA || resampler == WARP_MEAN_CUBIC ? WINDOW_SIDES : 1;
+    uint32_t at = 0;
+    for (int32_t side = 0; side < sides; side++) {
+        const int32_t support = 2 * kernel->half_width + 2 * side_q6(side); /* 1/128 px */
+        weights->taps[side] = (uint8_t)((support + ONE - 1) / ONE);
+        weights->at[side] = at;
+        at += (uint32_t)weights->taps[side] * PHASES;
+        for (int32_t phase = 0; phase < PHASES; phase++)
+            fill_row(weights, kernel, side, phase);
+    }
+}
+
+/* The table entry nearest to a side of at most WINDOW_MAX_SIDE px. */
+static uint16_t nearest_side(uint32_t side_q16)
+{
+    if (side_q16 < 1u << 16)
+        return (uint16_t)((side_q16 + (1u << 9)) >> 10);
+    const int octave = 15 - __builtin_clz(side_q16);
+    const uint32_t step_log2 = 11 + (uint32_t)octave;
+    const uint32_t steps = (side_q16 - (1u << (16 + octave)) + (1u << (step_log2 - 1))) >> step_log2;
+    return (uint16_t)(64u + 32u * (uint32_t)octave + steps);
+}
+
+window_side_t window_side(warp_resampler_t resampler, uint32_t width_q16)
+{
+    if (resampler != WARP_AREA && resampler != WARP_MEAN_CUBIC)
+        return (window_side_t){0, 0};
+    const uint32_t largest = WINDOW_MAX_SIDE << 16;
+    uint8_t level = 0;
+    while (level < 2 && width_q16 > largest) {
+        width_q16 >>= 3;
+        level++;
+    }
+    if (resampler == WARP_MEAN_CUBIC) {
+        const uint64_t square = (uint64_t)width_q16 * width_q16, one = (uint64_t)1 << 32;
+        width_q16 = square > one ? floor_sqrt(square - one) : 0;
+    }
+    return (window_side_t){nearest_side(width_q16 < largest ? width_q16 : largest), level};
+}
+
+window_axis_t window_axis(const window_weights_t *weights, uint16_t side)
+{
+    const uint32_t at = weights->at[side];
+    const int32_t taps = weights->taps[side];
+    return (window_axis_t){&weights->first[at], &weights->second[at], weights->start[side], taps,
+                           taps > WINDOW_SHORT_TAPS ? LONG_FIRST_SHIFT : 0};
+}

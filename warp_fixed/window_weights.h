@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// One table of weights for every interpolating and averaging kernel, by side of the footprint and phase.
+//
+// A pixel's value is sum_y first(y) sum_x second(x) picture(x, y) over a small window. Along each axis, texel i (its
+// centre at i + 1/2) weighs (C(x + s/2 - i - 1/2) - C(x - s/2 - i - 1/2)) / s, where C is the running integral of the
+// kernel and s the side it is averaged over; for s = 0 the kernel itself: interpolation. Weights are exact rationals,
+// rounded by largest remainders so that their sum is exact.
+#ifndef WARP_FIXED_WINDOW_WEIGHTS_H
+#define WARP_FIXED_WINDOW_WEIGHTS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "warp_fixed/fixed.h"
+#include "warp_fixed/method.h"
+
+enum {
+    WINDOW_SIDES = 64 + 6 * 32 + 1, /**< below 1 px in steps of 1/64, then 32 steps to each doubling, up to 64 px */
+    WINDOW_MAX_SIDE = 64,           /**< picture pixels; larger footprints are read from halved levels */
+    WINDOW_MAX_TAPS = WINDOW_MAX_SIDE + 4,
+    WINDOW_SHORT_TAPS = 8,          /**< up to here the first pass has 8-bit weights */
+    WINDOW_POOL = 4212 * PHASES     /**< weights of all sides of the widest kernel, half width 2 */
+};
+
+/** Weights along one axis for one side: row `phase` of each table has `taps` entries. */
+typedef struct {
+    const int16_t *first;  /**< sum FIRST_SUM or FIRST_SUM_POSITIVE, or that << LONG_FIRST_SHIFT */
+    const int16_t *second; /**< sum SECOND_SUM or SECOND_SUM_POSITIVE */
+    const int8_t *start;   /**< first texel of the window, from the texel whose centre is at or before the point */
+    int32_t taps;          /**< 1 to WINDOW_MAX_TAPS */
+    int32_t first_shift;   /**< 0, or LONG_FIRST_SHIFT when taps > WINDOW_SHORT_TAPS */
+} window_axis_t;
+
+typedef struct {
+    uint32_t at[WINDOW_SIDES]; /**< of row 0 in the pools */
+    uint8_t taps[WINDOW_SIDES];
+    int8_t start[WINDOW_SIDES][PHASES];
+    int16_t first[WINDOW_POOL];
+    int16_t second[WINDOW_POOL];
+} window_weights_t;
+
+/** Which entry of the table serves a footprint's side, and from which level of the picture. */
+typedef struct {
+    uint16_t side;  /**< 0 to WINDOW_SIDES - 1 */
+    uint8_t level;  /**< the axis is divided by 8^level */
+} window_side_t;
+
+/** Build the table of a resampler. WARP_NEAREST has none: its table is left as it is. */
+void window_weights_init(window_weights_t *weights, warp_resampler_t resampler);
+
+/**
+ * Choose by the footprint's width (or height): area takes it as the side; mean+cubic takes sqrt(w^2 - 1), since the
+ * picture's pixels are means over a unit box themselves; plain kernels take 0.
+ */
+window_side_t window_side(warp_resampler_t resampler, uint32_t width_q16);
+
+/** @return The axis' weights, pointing into the table. */
+window_axis_t window_axis(const window_weights_t *weights, uint16_t side);
+
+#endif
