@@ -25,7 +25,7 @@ typedef struct {
  *                     hal_camera_release(). The caller may hold two pictures at a time.
  * @return HAL_OK      a picture newer than any taken before;
  *         HAL_EMPTY   none since the last call;
- *         HAL_FULL    two pictures are held already, release one first;
+ *         HAL_FULL    two pictures are held already, release one first, whether or not there is a newer one;
  *         HAL_IO      unplugged or failed; the handle stays good and delivers again when the source is back.
  */
 MUST_CHECK hal_status_t hal_camera_take(hal_camera_t *camera, hal_camera_frame_t *frame);

@@ -59,6 +59,8 @@ hal_can_state_t hal_can_state(const hal_can_t *can);
 /**
  * Leave bus-off. The controller is back after it has seen 128 x 11 recessive bits (ISO 11898-1), not at once.
  *
+ * Calling again while that goes on changes nothing.
+ *
  * @return HAL_OK when started, or when not bus-off at all; HAL_IO when the driver refuses.
  */
 MUST_CHECK hal_status_t hal_can_restart(hal_can_t *can);

@@ -13,6 +13,8 @@ typedef struct hal_display hal_display_t;
 /**
  * Borrow the buffer that will be shown next.
  *
+ * Borrowing again before presenting gives the same buffer.
+ *
  * @param[out] buffer  Written only when HAL_OK is returned: XRGB8888 of the projector's size, contents unspecified,
  *                     the caller's alone until hal_display_present().
  * @return HAL_OK; HAL_FULL when every buffer still waits to be shown; HAL_IO when the display is gone.
@@ -20,7 +22,8 @@ typedef struct hal_display hal_display_t;
 MUST_CHECK hal_status_t hal_display_back_buffer(hal_display_t *display, image_t *buffer);
 
 /**
- * Show the borrowed back buffer from the next vertical blank on. Returns at once; never tears.
+ * Show the borrowed back buffer from the next vertical blank on; of several presented before one blank, the last.
+ * Returns at once; never tears.
  *
  * @return HAL_OK; HAL_BAD_CALL when no buffer is borrowed; HAL_IO when the flip was refused: the wall keeps its
  *         last picture and the buffer counts as given back.

@@ -80,13 +80,13 @@ static void pictures_are_filtered(void **state)
             for (int i = 0; i < WIDTH * HEIGHT * format; i++)
                 pixels[i] = (uint8_t)(rng_int(&rng, 0, 1) * 255);
             const image_t picture = {pixels, WIDTH, HEIGHT, WIDTH * format, (image_format_t)format};
-            const image_t out =
-                prefilter_picture(&prefilter, &warp_kernels_scalar, &picture, (int32_t)lround(ks[n] * 65536));
+            const int32_t k_q16 = (int32_t)lround(ks[n] * 65536);
+            const image_t out = prefilter_picture(&prefilter, &warp_kernels_scalar, &picture, k_q16);
             for (int c = 0; c < 400; c++) {
                 const int x = (int)rng_int(&rng, 0, WIDTH - 1), y = (int)rng_int(&rng, 0, HEIGHT - 1);
                 const int channel = (int)rng_int(&rng, 0, format - 1);
                 const int expected =
-                    (int)floor(float_filtered(pixels, format, x, y, channel, lround(ks[n] * 65536) / 65536.0) + 0.5);
+                    (int)floor(float_filtered(pixels, format, x, y, channel, k_q16 / 65536.0) + 0.5);
                 const int error = abs(image_row(&out, y)[x * format + channel] - expected);
                 worst = error > worst ? error : worst;
             }
