@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// Collects, checks and counts the pose messages of one viewer.
+#include "firmware/pose_from_can.h"
+
+#include <string.h>
+
+static const int64_t FARTHEST_NM = INT64_C(1000000000000);
+
+static void count_check(can_faults_t *faults, can_check_t check)
+{
+    switch (check) {
+    case CAN_CHECK_LENGTH:
+        faults->length++;
+        break;
+    case CAN_CHECK_CRC:
+        faults->crc++;
+        break;
+    case CAN_CHECK_COUNTER:
+        faults->counter_invalid++;
+        break;
+    case CAN_CHECK_VALUE:
+        faults->bad_pose++;
+        break;
+    case CAN_CHECK_OK:
+    case CAN_CHECK_OTHER:
+        break;
+    }
+}
+
+/** @return Does the frame with this counter carry on the sequence, or is it a duplicate or stale? Counts either way. */
+static bool carries_on(can_sequence_t *sequence, int counter, int counters, int64_t time_us, can_faults_t *faults)
+{
+    const bool first = !sequence->any;
+    const bool silent = !first && time_us - sequence->last_us > POSE_FROM_CAN_SILENCE_US;
+    uint32_t lost = 0;
+    const can_e2e_step_t step =
+        first || silent ? CAN_E2E_RESTART : can_e2e_step(sequence->newest, counter, counters, &lost);
+    sequence->any = true;
+    sequence->last_us = time_us;
+    if (step == CAN_E2E_DUPLICATE) {
+        faults->duplicate++;
+        return false;
+    }
+    if (step == CAN_E2E_STALE) {
+        faults->stale++;
+        return false;
+    }
+    if (step == CAN_E2E_RESTART && !first)
+        faults->sender_restart++;
+    faults->counter_lost += lost;
+    sequence->newest = counter;
+    return true;
+}
+
+static bool is_sane(const pose_t *pose)
+{
+    for (int i = 0; i < 3; i++)
+        if (pose->eye_nm[i] > FARTHEST_NM || pose->eye_nm[i] < -FARTHEST_NM)
+            return false;
+    /* In Q20 a square is at most 2^42; the sum of four fits easily. */
+    int64_t norm_squared = 0;
+    for (int i = 0; i < 4; i++) {
+        const int64_t component = pose->quaternion_q30[i] / (1 << 10);
+        norm_squared += component * component;
+    }
+    const int64_t one = INT64_C(1) << 40;
+    return norm_squared >= one / 10000 * 9801 && norm_squared <= one / 10000 * 10201;
+}
+
+static void take_pose(can_poses_t *poses, const can_pose_t *pose, int64_t time_us, can_faults_t *faults)
+{
+    if (pose->quality == CAN_POSE_LOST) {
+        faults->tracking_lost++;
+    } else if (!is_sane(&pose->pose)) {
+        faults->bad_pose++;
+    } else {
+        poses->newest = *pose;
+        poses->received_us = time_us;
+        poses->any = true;
+    }
+}
+
+/** @return Was it this viewer's FD pose, good or bad? */
+static bool take_fd(can_poses_t *poses, const hal_can_frame_t *frame, can_faults_t *faults)
+{
+    can_pose_t pose;
+    const can_check_t check = can_pose_fd_decode(&pose, frame, poses->viewer);
+    count_check(faults, check);
+    if (check == CAN_CHECK_OK && carries_on(&poses->fd, pose.counter, CAN_E2E_P05_COUNTERS, frame->time_us, faults))
+        take_pose(poses, &pose, frame->time_us, faults);
+    return check != CAN_CHECK_OTHER;
+}
+
+static void give_up_set(can_poses_t *poses, can_faults_t *faults)
+{
+    if (poses->collecting)
+        faults->incomplete_set++;
+    poses->collecting = false;
+}
+
+static void complete_set(can_poses_t *poses, int64_t time_us, can_faults_t *faults)
+{
+    can_pose_t pose;
+    const can_check_t check = can_pose_set_decode(&pose, poses->part, poses->viewer);
+    poses->collecting = false;
+    count_check(faults, check);
+    if (check == CAN_CHECK_OK)
+        take_pose(poses, &pose, time_us, faults);
+}
+
+static void take_part(can_poses_t *poses, const hal_can_frame_t *frame, can_faults_t *faults)
+{
+    int part = 0;
+    uint8_t counter = 0;
+    const can_check_t check = can_pose_part_check(frame, poses->viewer, &part, &counter);
+    count_check(faults, check);
+    if (check != CAN_CHECK_OK)
+        return;
+
+    if (poses->collecting && frame->time_us - poses->set_began_us > POSE_FROM_CAN_SET_US)
+        give_up_set(poses, faults);
+    if (poses->collecting && counter == poses->set.newest) {
+        if (poses->part_here[part]) {
+            faults->duplicate++;
+            return;
+        }
+    } else {
+        if (!carries_on(&poses->set, counter, CAN_E2E_P01_COUNTERS, frame->time_us, faults))
+            return;
+        give_up_set(poses, faults);
+        poses->collecting = true;
+        poses->set_began_us = frame->time_us;
+        memset(poses->part_here, 0, sizeof poses->part_here);
+    }
+    poses->part[part] = *frame;
+    poses->part_here[part] = true;
+    if (poses->part_here[0] && poses->part_here[1] && poses->part_here[2])
+        complete_set(poses, frame->time_us, faults);
+}
+
+static void leave_bus_off(hal_can_t *can, can_faults_t *faults)
+{
+    if (hal_can_state(can) != HAL_CAN_BUS_OFF)
+        return;
+    faults->bus_off++;
+    if (hal_can_restart(can) != HAL_OK)
+        faults->io++;
+}
+
+void pose_from_can(can_poses_t *poses, hal_can_t *can, can_faults_t *faults)
+{
+    leave_bus_off(can, faults);
+    for (int i = 0; i < POSE_FROM_CAN_FRAMES; i++) {
+        hal_can_frame_t frame;
+        const hal_status_t status = hal_can_receive(can, &frame);
+        if (status == HAL_EMPTY)
+            return;
+        if (status != HAL_OK) {
+            faults->io++;
+            return;
+        }
+        if (!take_fd(poses, &frame, faults))
+            take_part(poses, &frame, faults);
+    }
+    faults->overrun++;
+}
+
+uint32_t can_faults_total(const can_faults_t *faults)
+{
+    return faults->length + faults->crc + faults->counter_invalid + faults->counter_lost + faults->duplicate +
+           faults->stale + faults->sender_restart + faults->incomplete_set + faults->bad_pose + faults->io +
+           faults->overrun + faults->bus_off;
+}

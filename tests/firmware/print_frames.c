@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Prints encoded frames beside the values that went into them, for dbc_decodes_traffic.py to compare.
+//
+// Lines: "frame MESSAGE ID FD CYCLE_MS HEX", then "signal NAME VALUE" for what that frame must say. The values are in
+// the DBC file's units, written down by hand here.
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "firmware/can_protocol.h"
+
+enum { POSE_CYCLE_MS = 4 };
+
+static void print_frame(const char *message, const hal_can_frame_t *frame, int cycle_ms)
+{
+    printf("frame %s %u %d %d ", message, (unsigned)frame->id, frame->fd ? 1 : 0, cycle_ms);
+    for (int i = 0; i < frame->length; i++)
+        printf("%02x", frame->data[i]);
+    printf("\n");
+}
+
+static void check(bool encoded)
+{
+    if (!encoded) {
+        fprintf(stderr, "print_frames: a frame was not encoded\n");
+        exit(1);
+    }
+}
+
+static void print_fd(void)
+{
+    hal_can_frame_t frame;
+    const can_pose_t pose = {
+        .pose = {.eye_nm = {1234567000, -INT64_C(999999999000), 1000},
+                 .quaternion_q30 = {1 << 30, -(1 << 29), 1 << 8, -(3 << 28)}},
+        .capture_time_us = 4000000001,
+        .quality = CAN_POSE_PREDICTED,
+        .tracker = 13,
+        .counter = 254,
+    };
+    check(can_pose_fd_encode(&frame, &pose));
+    print_frame("Pose", &frame, POSE_CYCLE_MS);
+    printf("signal PoseCounter 254\nsignal PoseQuality 2\nsignal PoseTracker 13\n"
+           "signal PoseX 1234.567\nsignal PoseY -999999.999\nsignal PoseZ 0.001\n"
+           "signal PoseQw 1\nsignal PoseQx -0.5\nsignal PoseQy 2.384185791015625E-7\nsignal PoseQz -0.75\n"
+           "signal PoseCaptureTime 4000000001\n");
+}
+
+static void print_set(void)
+{
+    hal_can_frame_t part[CAN_POSE_PARTS];
+    const can_pose_t pose = {
+        .pose = {.eye_nm = {1234560000, -INT64_C(83886080000), -10000},
+                 .quaternion_q30 = {1 << 30, -(1 << 30), 1 << 15, -(3 << 28)}},
+        .capture_time_us = 5123400, /* 0xC822 units of 100 us: 0x822 and 0xC */
+        .quality = CAN_POSE_TRACKED,
+        .counter = 11,
+    };
+    check(can_pose_set_encode(part, &pose));
+    print_frame("PoseSetA", &part[0], POSE_CYCLE_MS);
+    printf("signal PoseSetACounter 11\nsignal PoseSetQuality 1\nsignal PoseSetX 1234.56\nsignal PoseSetY -83886.08\n");
+    print_frame("PoseSetB", &part[1], POSE_CYCLE_MS);
+    printf("signal PoseSetBCounter 11\nsignal PoseSetCaptureTimeLow 208200\nsignal PoseSetZ -0.01\n"
+           "signal PoseSetQw 0.999969482421875\n");
+    print_frame("PoseSetC", &part[2], POSE_CYCLE_MS);
+    printf("signal PoseSetCCounter 11\nsignal PoseSetCaptureTimeHigh 4915200\nsignal PoseSetQx -1\n"
+           "signal PoseSetQy 0.000030517578125\nsignal PoseSetQz -0.75\n");
+}
+
+static void print_status(void)
+{
+    hal_can_frame_t frame;
+    const can_status_t status = {.node = 1,
+                                 .counter = 5,
+                                 .pose_counter = 201,
+                                 .pose_age_ms = 777,
+                                 .step_q8 = 640,
+                                 .warp_time_us = 8300,
+                                 .can_faults = 1000};
+    check(can_status_encode(&frame, &status));
+    print_frame("Status", &frame, CAN_STATUS_PERIOD_MS);
+    printf("signal StatusCounter 5\nsignal StatusWarpTime 8300\nsignal StatusPoseAge 777\nsignal StatusStep 2.5\n"
+           "signal StatusCanFaults 1000\nsignal StatusPoseCounter 201\n");
+}
+
+/* One heartbeat for each fault flag, so that no two flags can be confused. */
+static void print_heartbeats(void)
+{
+    static const struct {
+        can_fault_flag_t flag;
+        const char *signal;
+    } FAULT[] = {
+        {CAN_FAULT_BUS, "HeartbeatFaultBus"},           {CAN_FAULT_BUS_OFF, "HeartbeatFaultBusOff"},
+        {CAN_FAULT_CAMERA, "HeartbeatFaultCamera"},     {CAN_FAULT_DISPLAY, "HeartbeatFaultDisplay"},
+        {CAN_FAULT_GPIO, "HeartbeatFaultGpio"},         {CAN_FAULT_WATCHDOG, "HeartbeatFaultWatchdog"},
+        {CAN_FAULT_DEADLINE, "HeartbeatFaultDeadline"},
+    };
+    enum { FAULTS = sizeof FAULT / sizeof FAULT[0] };
+    for (int i = 0; i < FAULTS; i++) {
+        hal_can_frame_t frame;
+        const can_heartbeat_t heartbeat = {.node = 1,
+                                           .counter = (uint8_t)(8 + i),
+                                           .state = (can_board_state_t)(i % (CAN_BOARD_FAULT + 1)),
+                                           .fault_flags = FAULT[i].flag,
+                                           .frame_number = 43210,
+                                           .uptime_s = 54321};
+        check(can_heartbeat_encode(&frame, &heartbeat));
+        print_frame("Heartbeat", &frame, CAN_HEARTBEAT_PERIOD_MS);
+        printf("signal HeartbeatCounter %d\nsignal HeartbeatState %d\nsignal HeartbeatFrameNumber 43210\n"
+               "signal HeartbeatUptime 54321\nsignal HeartbeatFaultReserved 0\n",
+               8 + i, i % (CAN_BOARD_FAULT + 1));
+        for (int k = 0; k < FAULTS; k++)
+            printf("signal %s %d\n", FAULT[k].signal, k == i ? 1 : 0);
+    }
+}
+
+int main(void)
+{
+    print_fd();
+    print_set();
+    print_status();
+    print_heartbeats();
+    return 0;
+}
