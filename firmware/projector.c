@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loop body: the stages of a frame by name, in order.
+#include "firmware/projector.h"
+
+#include <string.h>
+
+#include "firmware/safe_picture.h"
+
+void projector_init(projector_t *projector, const room_t *room, const room_board_t *board, const hal_board_t *devices,
+                    const warp_kernels_t *kernels)
+{
+    projector->board = *devices;
+    projector->node = board->node;
+    projector->camera = room->camera;
+    projector->wall = board->wall;
+    projector->kernels = kernels;
+    projector->poses = (can_poses_t){.viewer = 0};
+    projector->has_picture = false;
+    projector->picture_us = hal_time_now_us(devices->clock);
+    projector->report = (projector_report_t){.state = CAN_BOARD_WAITING};
+    projector->faults = (projector_faults_t){.camera = 0};
+    projector->can_faults = (can_faults_t){.length = 0};
+    telemetry_init(&projector->telemetry, projector->picture_us);
+    warp_init(&projector->warp, *board->method, board->step_all, board->border);
+}
+
+/* Keep the camera's newest picture; while it has none, the last good one stays. */
+static void take_newest_picture(projector_t *p, int64_t now_us)
+{
+    hal_camera_frame_t frame;
+    const hal_status_t status = hal_camera_take(p->board.camera, &frame);
+    if (status == HAL_EMPTY)
+        return;
+    if (status != HAL_OK) {
+        p->faults.camera++;
+        return;
+    }
+    if (p->has_picture && frame.sequence == p->picture.sequence) { /* a stuck source sends the old picture again */
+        hal_camera_release(p->board.camera, &frame);
+        return;
+    }
+    if (frame.image.width != p->camera.width || frame.image.height != p->camera.height ||
+        frame.image.format != IMAGE_XRGB8888) {
+        p->faults.picture_size++;
+        hal_camera_release(p->board.camera, &frame);
+        return;
+    }
+    if (p->has_picture)
+        hal_camera_release(p->board.camera, &p->picture);
+    p->picture = frame;
+    p->has_picture = true;
+    p->picture_us = now_us;
+}
+
+static can_board_state_t state_now(const projector_t *p, int64_t now_us)
+{
+    if (now_us - p->picture_us > PROJECTOR_CAMERA_LOST_US)
+        return CAN_BOARD_FAULT;
+    if (!p->poses.any || !p->has_picture)
+        return CAN_BOARD_WAITING;
+    const int64_t pose_age_us = now_us - p->poses.received_us;
+    if (pose_age_us > PROJECTOR_SAFE_AFTER_US)
+        return CAN_BOARD_SAFE;
+    return pose_age_us > PROJECTOR_HOLD_AFTER_US ? CAN_BOARD_HOLDING : CAN_BOARD_RUNNING;
+}
+
+/* Warp the newest picture for the newest pose. @return false when that can't be done; the panel is then untouched. */
+static bool draw_corrected(projector_t *p, const image_t *panel)
+{
+    homography_t homography;
+    p->report.pose = p->poses.newest;
+    return homography_from_pose(&homography, &p->camera, &p->wall, &p->report.pose.pose) &&
+           warp_frame(&p->warp, p->kernels, &p->report.warp, &homography, panel, &p->picture.image);
+}
+
+static void draw(projector_t *p, const image_t *panel)
+{
+    const int64_t begin_us = hal_time_now_us(p->board.clock);
+    const bool wanted = p->report.state == CAN_BOARD_RUNNING || p->report.state == CAN_BOARD_HOLDING;
+    p->report.corrected = wanted && draw_corrected(p, panel);
+    if (wanted && !p->report.corrected)
+        p->report.state = CAN_BOARD_FAULT;
+    if (!p->report.corrected)
+        safe_picture_draw(panel, p->node);
+    p->report.warp_time_us = hal_time_now_us(p->board.clock) - begin_us;
+}
+
+/* A new picture on the wall from the next vertical blank on. @return Is the loop healthy? */
+static bool show(projector_t *p)
+{
+    image_t panel;
+    const int64_t deadline_us = hal_display_next_vblank_us(p->board.display);
+    hal_status_t status = hal_display_back_buffer(p->board.display, &panel);
+    if (status == HAL_OK) {
+        draw(p, &panel);
+        status = hal_display_present(p->board.display);
+    }
+    if (status == HAL_OK) {
+        p->report.frame_number++;
+        p->faults.deadline += hal_time_now_us(p->board.clock) > deadline_us;
+    } else {
+        p->faults.display++;
+        p->report.state = CAN_BOARD_FAULT;
+    }
+    return status == HAL_OK || status == HAL_IO;
+}
+
+static void drive(projector_t *p, hal_gpio_line_t line, bool high)
+{
+    if (hal_gpio_set(p->board.gpio, line, high) != HAL_OK)
+        p->faults.gpio++;
+}
+
+/* Steady: running. Slow blinking: waiting, holding or safe. Fast blinking: fault. */
+static bool led_level(can_board_state_t state, int64_t now_us)
+{
+    if (state == CAN_BOARD_RUNNING)
+        return true;
+    const int64_t half_period_us = state == CAN_BOARD_FAULT ? 60000 : 250000;
+    return now_us / half_period_us % 2 == 0;
+}
+
+void projector_step(projector_t *p)
+{
+    const int64_t now_us = hal_time_now_us(p->board.clock);
+    drive(p, HAL_GPIO_STROBE, true);
+    pose_from_can(&p->poses, p->board.can, &p->can_faults); /* bus -> newest checked pose */
+    take_newest_picture(p, now_us);                         /* camera -> newest picture, or the last good one */
+    p->report.state = state_now(p, now_us);
+    const bool healthy = show(p); /* pose and picture -> homography, grid, prefilter, resample -> display */
+    drive(p, HAL_GPIO_STROBE, false);
+    drive(p, HAL_GPIO_LED, led_level(p->report.state, now_us));
+    telemetry_send(p, now_us); /* heartbeat and status -> bus */
+    if (healthy && hal_watchdog_feed(p->board.watchdog) != HAL_OK)
+        p->faults.watchdog++;
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// One projector: all its state in one struct, and the loop body.
+#ifndef FIRMWARE_PROJECTOR_H
+#define FIRMWARE_PROJECTOR_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "firmware/can_protocol.h"
+#include "firmware/pose_from_can.h"
+#include "firmware/room.h"
+#include "firmware/telemetry.h"
+#include "hal/hal_board.h"
+#include "warp_fixed/warp.h"
+
+typedef struct projector projector_t;
+
+enum {
+    PROJECTOR_HOLD_AFTER_US = 100000,  /**< no pose for so long: holding the last one */
+    PROJECTOR_SAFE_AFTER_US = 1000000, /**< and for so long: safe picture */
+    PROJECTOR_CAMERA_LOST_US = 1000000 /**< no new picture from the camera for so long: fault, safe picture */
+};
+
+/** Faults of the board's own devices, counted since start; those of the bus are in can_faults_t. */
+typedef struct {
+    uint32_t camera;        /**< refused to deliver */
+    uint32_t picture_size;  /**< pictures that are not of the room's size */
+    uint32_t display;       /**< back buffer or flip refused */
+    uint32_t deadline;      /**< pictures not ready at the vertical blank they were made for */
+    uint32_t gpio;
+    uint32_t watchdog;
+    uint32_t can_send;      /**< telemetry frames that could not be queued */
+} projector_faults_t;
+
+/** What the newest step did, for people who look on: the simulator, tests. */
+typedef struct {
+    can_board_state_t state;
+    bool corrected;        /**< the presented picture is a warped one, not the safe picture */
+    uint32_t frame_number; /**< pictures presented since start */
+    can_pose_t pose;       /**< that it was warped with */
+    warp_report_t warp;
+    int64_t warp_time_us;
+} projector_report_t;
+
+/** About 65 MB, one static instance on a board; the simulator makes one for each of its boards before it starts. */
+struct projector {
+    hal_board_t board;
+    int32_t node;
+    camera_t camera;
+    wall_t wall;
+    const warp_kernels_t *kernels;
+
+    can_poses_t poses;
+    hal_camera_frame_t picture; /**< the newest; lent by the camera */
+    bool has_picture;
+    int64_t picture_us;         /**< when it was taken; at first the start of the loop */
+    warp_t warp;
+
+    projector_report_t report;
+    projector_faults_t faults;
+    can_faults_t can_faults;
+    telemetry_t telemetry;
+};
+
+/**
+ * Make a projector ready for its first step.
+ *
+ * @param[out] projector  Need not be initialised.
+ * @param      room       Only read here.
+ * @param      board      Which board of the room this is.
+ * @param      devices    Open devices; they stay the caller's to close, after the last step.
+ * @param      kernels    Pixel loops to use.
+ */
+void projector_init(projector_t *projector, const room_t *room, const room_board_t *board, const hal_board_t *devices,
+                    const warp_kernels_t *kernels);
+
+/**
+ * Everything that is done once per refresh: bus, camera, warp, display, telemetry, watchdog. Call it after each
+ * vertical blank. Never blocks, never allocates; ends with a picture presented whatever has failed, unless it is the
+ * display itself.
+ *
+ * States: waiting for the first pose (safe picture); running; holding the last pose after PROJECTOR_HOLD_AFTER_US
+ * without a new one; safe picture after PROJECTOR_SAFE_AFTER_US; fault (safe picture) while the camera has been silent
+ * for PROJECTOR_CAMERA_LOST_US, delivers pictures of a wrong size, or the display refuses. Each ends by itself when its
+ * cause does.
+ *
+ * The watchdog is fed when the step got through and a picture was presented, or the display said that it is gone: a
+ * reset brings no cable back. A display whose buffers never come free is not fed for.
+ */
+void projector_step(projector_t *projector);
+
+#endif

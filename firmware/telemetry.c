@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heartbeat and status of a board, onto the bus.
+#include "firmware/telemetry.h"
+
+#include "firmware/projector.h"
+
+enum { P01_COUNTERS = 15 };
+
+void telemetry_init(telemetry_t *telemetry, int64_t now_us)
+{
+    *telemetry = (telemetry_t){.start_us = now_us, .heartbeat_due_us = now_us, .status_due_us = now_us};
+}
+
+/* Has the count moved since the last heartbeat? */
+static uint32_t flag_if_new(uint32_t *seen, uint32_t count, can_fault_flag_t flag)
+{
+    const bool moved = *seen != count;
+    *seen = count;
+    return moved ? (uint32_t)flag : 0;
+}
+
+static uint32_t fault_flags(projector_t *p, int64_t now_us)
+{
+    telemetry_t *t = &p->telemetry;
+    uint32_t flags = now_us - p->picture_us > PROJECTOR_CAMERA_LOST_US ? (uint32_t)CAN_FAULT_CAMERA : 0;
+    flags |= flag_if_new(&t->seen_bus, can_faults_total(&p->can_faults) + p->faults.can_send, CAN_FAULT_BUS);
+    flags |= flag_if_new(&t->seen_bus_off, p->can_faults.bus_off, CAN_FAULT_BUS_OFF);
+    flags |= flag_if_new(&t->seen_display, p->faults.display, CAN_FAULT_DISPLAY);
+    flags |= flag_if_new(&t->seen_gpio, p->faults.gpio, CAN_FAULT_GPIO);
+    flags |= flag_if_new(&t->seen_watchdog, p->faults.watchdog, CAN_FAULT_WATCHDOG);
+    flags |= flag_if_new(&t->seen_deadline, p->faults.deadline, CAN_FAULT_DEADLINE);
+    return flags;
+}
+
+static void send(projector_t *p, bool encoded, const hal_can_frame_t *frame)
+{
+    if (!encoded || hal_can_send(p->board.can, frame) != HAL_OK)
+        p->faults.can_send++;
+}
+
+static void send_heartbeat(projector_t *p, int64_t now_us)
+{
+    telemetry_t *t = &p->telemetry;
+    const can_heartbeat_t heartbeat = {
+        .node = (uint8_t)p->node,
+        .counter = t->heartbeat_counter,
+        .state = p->report.state,
+        .fault_flags = fault_flags(p, now_us),
+        .frame_number = p->report.frame_number,
+        .uptime_s = (uint32_t)((now_us - t->start_us) / 1000000),
+    };
+    t->heartbeat_counter = (uint8_t)((t->heartbeat_counter + 1) % P01_COUNTERS);
+    hal_can_frame_t frame;
+    send(p, can_heartbeat_encode(&frame, &heartbeat), &frame);
+}
+
+static void send_status(projector_t *p, int64_t now_us)
+{
+    telemetry_t *t = &p->telemetry;
+    const int32_t step_q16 = p->warp.step_all ? p->report.warp.k_all_q16 : p->report.warp.k_in_q16;
+    const can_status_t status = {
+        .node = (uint8_t)p->node,
+        .counter = t->status_counter,
+        .pose_counter = p->report.pose.counter,
+        .pose_age_ms = p->poses.any ? (uint32_t)((now_us - p->poses.received_us) / 1000) : UINT32_MAX,
+        .step_q8 = (uint32_t)step_q16 >> 8,
+        .warp_time_us = (uint32_t)p->report.warp_time_us,
+        .can_faults = can_faults_total(&p->can_faults),
+    };
+    t->status_counter = (uint8_t)((t->status_counter + 1) % P01_COUNTERS);
+    hal_can_frame_t frame;
+    send(p, can_status_encode(&frame, &status), &frame);
+}
+
+void telemetry_send(projector_t *projector, int64_t now_us)
+{
+    telemetry_t *t = &projector->telemetry;
+    if (now_us >= t->status_due_us) {
+        t->status_due_us = now_us + CAN_STATUS_PERIOD_MS * 1000;
+        send_status(projector, now_us);
+    }
+    if (now_us >= t->heartbeat_due_us) {
+        t->heartbeat_due_us = now_us + CAN_HEARTBEAT_PERIOD_MS * 1000;
+        send_heartbeat(projector, now_us);
+    }
+}

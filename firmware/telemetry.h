@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heartbeat and status of a board, onto the bus.
+#ifndef FIRMWARE_TELEMETRY_H
+#define FIRMWARE_TELEMETRY_H
+
+#include <stdint.h>
+
+typedef struct projector projector_t;
+
+/** When what was last sent, and the fault counts at the last heartbeat. */
+typedef struct {
+    int64_t start_us;
+    int64_t heartbeat_due_us, status_due_us;
+    uint8_t heartbeat_counter, status_counter;
+    uint32_t seen_bus, seen_bus_off, seen_display, seen_gpio, seen_watchdog, seen_deadline;
+} telemetry_t;
+
+void telemetry_init(telemetry_t *telemetry, int64_t now_us);
+
+/** Send what is due: a status every CAN_STATUS_PERIOD_MS, a heartbeat every CAN_HEARTBEAT_PERIOD_MS. Never blocks. */
+void telemetry_send(projector_t *projector, int64_t now_us);
+
+#endif
