@@ -84,7 +84,7 @@ static int print_points(const options_t *options, const char *command)
     warp_once_t once;
     const warp_once_status_t status = eval_open(&once, &options->place, command);
     if (status != WARP_ONCE_OK)
-        return status;
+        return (int)status;
     const bool on_panel = all_on_panel(options, &once, command);
     if (on_panel) {
         grid_from_homography(&once.warp->grid, &once.homography);

@@ -191,7 +191,7 @@ int eval_psnr(int argc, char **argv)
     work_t work = {0};
     const warp_once_status_t opened = eval_open(&work.once, &options.place, argv[0]);
     if (opened != WARP_ONCE_OK)
-        return opened;
+        return (int)opened;
     const int status = read_and_print(&work, &options, argv[0]);
     warp_once_close(&work.once);
     return status;

@@ -110,7 +110,7 @@ double mesh_psnr_db(const mesh_t *mesh, const image_t *panel)
             error += shown[i] * (shown[i] * cell[i].count - 2 * cell[i].sum);
     }
     if (error == 0)
-        return INFINITY;
+        return HUGE_VAL;
     return 10.0 * log10(255.0 * 255.0 * (double)mesh->covered / (double)error);
 }
 

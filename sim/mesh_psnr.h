@@ -47,7 +47,7 @@ void mesh_free(mesh_t *mesh);
 
 /**
  * @param panel  GRAY8, of the panel's size: what the projector shows.
- * @return PSNR over the covered samples, dB, peak 255; INFINITY when none differs (also when none is covered).
+ * @return PSNR over the covered samples, dB, peak 255; infinity when none differs (also when none is covered).
  */
 double mesh_psnr_db(const mesh_t *mesh, const image_t *panel);
 

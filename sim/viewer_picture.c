@@ -109,7 +109,7 @@ static const uint8_t *look(const look_row_t *row, int32_t k)
 static void add_looks(const view_t *view, int32_t row, int32_t *sum)
 {
     static const uint8_t background[4] = {VIEWER_BACKGROUND, VIEWER_BACKGROUND, VIEWER_BACKGROUND, 0};
-    const int32_t channels = view->out->format;
+    const int32_t channels = (int32_t)view->out->format;
     look_row_t looks = {.count = 0};
     for (int32_t n = 0; n < view->wall_count; n++) {
         const wall_row_t wall = wall_row(view, &view->walls[n], row);

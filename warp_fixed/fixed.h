@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The fixed-point formats of the frame path, with their rounding and saturation: only here.
 //
-// Positions  Q18 int32: 13 integer bits reach +-8192 px, 18 fraction bits leave the grid's forward differences exact
-//            to 2^-12 px over a span of 32.
+// Positions  Q18 int32: 13 integer bits reach +-8192 px, 18 fraction bits leave the grid's forward differences right
+//            to 2^-10 px over a span of 64.
 // Phases     Kernels see positions rounded to 1/128 px (1/64 would cost 0.02 dB, 0.1 where projector pixels are small).
 // Sums       Both passes of prefilter and window go from 8 bits to 8 bits through 16:
 //            first pass   v = sum(w1 * p), the weights' sum S1 is 128 (or 255 where no weight is negative);

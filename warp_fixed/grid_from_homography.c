@@ -8,15 +8,15 @@
 //     |s| |r|^2 m^3 / 4  of the cubic term,  |s| |r|^3 m^4 / 8 of the fourth, and less than 1/50 of the first beyond,
 // together below 1.06 |s| r^2 m^3 / 4. The row's blocks are so short that |s| r^2 m^3 <= 2^-8 at both of its ends,
 // and s and r are largest at one of them, since w has its least value there. So the cut costs at most 1.06 * 2^-10 px.
-// Rounding the second difference to Q18 costs 2^-20 * 15.5^2 < 2^-12, the first 2^-19 * 31 < 2^-14, the exact point
-// (33-bit reciprocal of w, x up to 2^13 px) 2^-18. The sum is below 0.0014 px; 1/256 is 0.0039.
+// Rounding the second difference to Q18 costs 2^-20 * 31.5^2 < 2^-10, the first 2^-19 * 63 < 2^-13, the exact point
+// (33-bit reciprocal of w, x up to 2^13 px) 2^-18. The sum is below 0.0022 px; 1/256 is 0.0039.
 #include "warp_fixed/grid_from_homography.h"
 
 #include <stddef.h>
 
 #include "warp_fixed/fixed.h"
 
-enum { FORM_BITS = 60, MAX_SPAN_LOG2 = 5, MIN_X_PX = -2048, MAX_X_PX = 6144 };
+enum { FORM_BITS = 60, MAX_SPAN_LOG2 = 6, MIN_X_PX = -2048, MAX_X_PX = 6144 };
 
 /* 1 / w of a point with positive w: reciprocal * 2^-(63 + shift), 2^31 < reciprocal <= 2^32. */
 typedef struct {

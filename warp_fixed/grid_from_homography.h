@@ -14,7 +14,7 @@
 #include "warp_fixed/homography_from_pose.h"
 #include "warp_fixed/image.h"
 
-enum { GRID_MAX_SPAN = 32 };
+enum { GRID_MAX_SPAN = 64 };
 
 /** u * U + v * V + c, where (U, V) = (2 i + 1, 2 j + 1) is a pixel's centre in half pixels. |value| < 2^60. */
 typedef struct {

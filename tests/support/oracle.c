@@ -272,8 +272,8 @@ void oracle_random_case(oracle_case_t *out, rng_t *rng)
                               (int64_t)(height * rng_double(rng, 0.4, 0.6) * 1e6)}};
 
     /* The eye: a random direction off a random point of the wall, 0.3 m or more from its plane. */
-    const long double u = out->corners.panel_width * rng_double(rng, 0, 1);
-    const long double v = out->corners.panel_height * rng_double(rng, 0, 1);
+    const double u = out->corners.panel_width * rng_double(rng, 0, 1);
+    const double v = out->corners.panel_height * rng_double(rng, 0, 1);
     const long double weight = wall.weight[0] * u + wall.weight[1] * v + wall.weight[2];
     double r[3][3], forward[3], along = 0, length = 0;
     random_rotation(r, rng);
