@@ -23,13 +23,13 @@ enum {
 
 /** Faults of the board's own devices, counted since start; those of the bus are in can_faults_t. */
 typedef struct {
-    uint32_t camera;        /**< refused to deliver */
-    uint32_t picture_size;  /**< pictures that are not of the room's size */
-    uint32_t display;       /**< back buffer or flip refused */
-    uint32_t deadline;      /**< pictures not ready at the vertical blank they were made for */
+    uint32_t camera;       /**< refused to deliver */
+    uint32_t picture_size; /**< pictures that are not of the room's size */
+    uint32_t display;      /**< back buffer or flip refused */
+    uint32_t deadline;     /**< pictures not ready at the vertical blank they were made for */
     uint32_t gpio;
     uint32_t watchdog;
-    uint32_t can_send;      /**< telemetry frames that could not be queued */
+    uint32_t can_send; /**< telemetry frames that could not be queued */
 } projector_faults_t;
 
 /** What the newest step did, for people who look on: the simulator, tests. */
@@ -42,7 +42,7 @@ typedef struct {
     int64_t warp_time_us;
 } projector_report_t;
 
-/** About 65 MB, one static instance on a board; the simulator makes one for each of its boards before it starts. */
+/** About 48 MB, one static instance on a board; the simulator makes one for each of its boards before it starts. */
 struct projector {
     hal_board_t board;
     int32_t node;
@@ -53,7 +53,7 @@ struct projector {
     can_poses_t poses;
     hal_camera_frame_t picture; /**< the newest; lent by the camera */
     bool has_picture;
-    int64_t picture_us;         /**< when it was taken; at first the start of the loop */
+    int64_t picture_us; /**< when it was taken; at first the start of the loop */
     warp_t warp;
 
     projector_report_t report;

@@ -19,8 +19,8 @@ typedef struct {
     wall_corners_t corners;      /**< as measured, with the projector's size */
     wall_t wall;                 /**< fitted to them */
     const warp_method_t *method;
-    uint8_t border[3];           /**< R, G, B of unlit pixels */
-    bool step_all;               /**< k over the whole wall instead of over what lands in the picture */
+    uint8_t border[3]; /**< R, G, B of unlit pixels */
+    bool step_all;     /**< k over the whole wall instead of over what lands in the picture */
 } room_board_t;
 
 typedef struct {

@@ -14,12 +14,12 @@ enum { HAL_CAN_MAX_LENGTH = 64 };
 
 /** One data frame. Remote frames are never delivered. */
 typedef struct {
-    int64_t time_us;    /**< received: when its last bit was seen, on hal_time's clock; ignored when sending */
-    uint32_t id;        /**< 11 bits, or 29 when extended */
+    int64_t time_us; /**< received: when its last bit was seen, on hal_time's clock; ignored when sending */
+    uint32_t id;     /**< 11 bits, or 29 when extended */
     bool extended;
-    bool fd;            /**< a CAN FD frame; else a classic one */
-    bool bit_rate_switch; /**< FD only: the data phase runs at the data bit rate */
-    uint8_t length;     /**< classic 0..8; FD 0..8, 12, 16, 20, 24, 32, 48, 64 */
+    bool fd;                          /**< a CAN FD frame; else a classic one */
+    bool bit_rate_switch;             /**< FD only: the data phase runs at the data bit rate */
+    uint8_t length;                   /**< classic 0..8; FD 0..8, 12, 16, 20, 24, 32, 48, 64 */
     uint8_t data[HAL_CAN_MAX_LENGTH]; /**< bytes from length on are unspecified */
 } hal_can_frame_t;
 

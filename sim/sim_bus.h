@@ -79,8 +79,8 @@ typedef struct {
     int32_t window_load_ppm; /**< the same over the last full window, or since the start when none is full yet */
     int64_t error_frames;    /**< frames destroyed by a sim_bus_fail() */
     int64_t lost, corrupted, duplicated; /**< frames hit by a sim_bus_fail() */
-    int64_t collisions;      /**< frames that beat another sender's of the same identifier; a real bus has errors then */
-    int64_t flood_frames;    /**< frames of the flooding node */
+    int64_t collisions;   /**< frames that beat another sender's of the same identifier; a real bus has errors then */
+    int64_t flood_frames; /**< frames of the flooding node */
 } sim_bus_stats_t;
 
 sim_bus_stats_t sim_bus_stats(const sim_bus_t *bus);

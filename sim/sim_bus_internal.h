@@ -33,11 +33,11 @@ struct hal_can {
     bool plugged, stuck, keep_order, bus_off;
     bool in_flight; /**< one frame has left the queue and is on the wire; its place is kept */
     sim_can_stats_t stats;
-    int64_t delay_ns;        /**< of delivery */
-    int64_t last_due_ns;     /**< of the newest frame in the receive queue */
-    int64_t recovered_ns;    /**< end of a running recovery from bus-off; 0 when none runs */
-    int64_t resume_ns;       /**< earliest next start: end of suspend transmission */
-    int64_t unanswered_ns;   /**< since when it has been sending to nobody; 0 when it is not */
+    int64_t delay_ns;      /**< of delivery */
+    int64_t last_due_ns;   /**< of the newest frame in the receive queue */
+    int64_t recovered_ns;  /**< end of a running recovery from bus-off; 0 when none runs */
+    int64_t resume_ns;     /**< earliest next start: end of suspend transmission */
+    int64_t unanswered_ns; /**< since when it has been sending to nobody; 0 when it is not */
     int32_t transmit_count;
     int32_t receive_first, receive_count;
     sim_can_pending_t transmit[SIM_CAN_TRANSMIT_FRAMES]; /**< next to be sent first */

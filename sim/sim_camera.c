@@ -70,8 +70,7 @@ hal_camera_t *sim_camera_create(const sim_camera_settings_t *settings, char erro
         file_error(error, "camera", "out of memory");
         return NULL;
     }
-    *camera = (hal_camera_t){
-        .settings = *settings, .pixels = pixels, .arrived = NO_PICTURE, .delivered = NO_PICTURE};
+    *camera = (hal_camera_t){.settings = *settings, .pixels = pixels, .arrived = NO_PICTURE, .delivered = NO_PICTURE};
     camera->settings.rate = rate_of(settings);
     for (size_t i = 0; i < BUFFERS; i++) {
         camera->buffers[i].frame.image =

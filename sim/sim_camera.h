@@ -23,13 +23,13 @@ typedef struct {
 
 /** What goes wrong. Pictures are counted when they would arrive. All 0: nothing. */
 typedef struct {
-    uint32_t drop_next;          /**< lose this many pictures; counts down */
-    uint32_t drop_ppm;           /**< lose each picture with this chance, in millionths */
-    uint32_t corrupt_next;       /**< put a band of noise over this many delivered pictures; counts down */
-    uint32_t corrupt_ppm;        /**< the same by chance */
-    int64_t late_us;             /**< pictures arrive this much later; their capture_time_us stays */
-    bool stuck;                  /**< pictures arrive, newly stamped, but picture and sequence stay the last ones */
-    int64_t unplugged_until_us;  /**< until then hal_camera_take() returns HAL_IO and pictures are lost; 0: never */
+    uint32_t drop_next;         /**< lose this many pictures; counts down */
+    uint32_t drop_ppm;          /**< lose each picture with this chance, in millionths */
+    uint32_t corrupt_next;      /**< put a band of noise over this many delivered pictures; counts down */
+    uint32_t corrupt_ppm;       /**< the same by chance */
+    int64_t late_us;            /**< pictures arrive this much later; their capture_time_us stays */
+    bool stuck;                 /**< pictures arrive, newly stamped, but picture and sequence stay the last ones */
+    int64_t unplugged_until_us; /**< until then hal_camera_take() returns HAL_IO and pictures are lost; 0: never */
 } sim_camera_faults_t;
 
 typedef struct {

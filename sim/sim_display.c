@@ -46,8 +46,7 @@ hal_display_t *sim_display_create(const sim_display_settings_t *settings, char e
     display->pixels = pixels;
     display->blank = sim_rate_beat_at(&settings->blanks, hal_time_now_us(settings->clock));
     for (size_t i = 0; i < BUFFERS; i++)
-        display->buffers[i] =
-            (image_t){pixels + i * bytes, settings->width, settings->height, stride, IMAGE_XRGB8888};
+        display->buffers[i] = (image_t){pixels + i * bytes, settings->width, settings->height, stride, IMAGE_XRGB8888};
     return display;
 }
 

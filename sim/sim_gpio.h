@@ -20,8 +20,8 @@ typedef struct {
 } sim_gpio_edge_t;
 
 typedef struct {
-    bool io;                      /**< every call fails with HAL_IO and changes nothing */
-    bool stuck[HAL_GPIO_LINES];   /**< an output keeps its level though calls succeed; an input sees no edges */
+    bool io;                    /**< every call fails with HAL_IO and changes nothing */
+    bool stuck[HAL_GPIO_LINES]; /**< an output keeps its level though calls succeed; an input sees no edges */
 } sim_gpio_faults_t;
 
 /**

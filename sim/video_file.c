@@ -239,8 +239,8 @@ bool video_frame(video_t *video, int64_t index, const image_t *image, char error
     const int32_t frame = (int32_t)(index % video->info.frame_count);
     if (video->kept_index != frame || video->kept.format != image->format) {
         video->kept_index = -1; /* a failed decode may leave half a picture here */
-        video->kept = (image_t){video->kept_pixels, video->width, video->height,
-                                video->width * (int32_t)image->format, image->format};
+        video->kept = (image_t){video->kept_pixels, video->width, video->height, video->width * (int32_t)image->format,
+                                image->format};
         if (!decode(video, frame, &video->kept, error))
             return false;
         video->kept_index = frame;

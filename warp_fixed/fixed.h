@@ -24,7 +24,7 @@ enum {
     FIRST_SUM_POSITIVE = 255,
     SECOND_SUM_POSITIVE = 16448,
     SUM_SHIFT = 22,
-    LONG_FIRST_SHIFT = 6 /**< long filters have this many more bits in the first pass, and lose them before the second */
+    LONG_FIRST_SHIFT = 6 /**< long filters have as many bits more in the first pass, and lose them before the second */
 };
 
 /** 64 x 64 -> 128 bit products, for the geometry only. */

@@ -126,7 +126,7 @@ void footprint_band(footprint_band_t *out, const grid_t *grid, int32_t band)
         const grid_row_t *row = &grid->row[middle];
         const int32_t i = clamp_i32(b * FOOTPRINT_BLOCK + FOOTPRINT_BLOCK / 2, row->begin, row->end - 1);
         const grid_jacobian_t jacobian = grid_jacobian(grid, i, middle);
-        out->block[b] = (footprint_sides_t){norm(jacobian.x_by_u, jacobian.x_by_v),
-                                            norm(jacobian.y_by_u, jacobian.y_by_v)};
+        out->block[b] =
+            (footprint_sides_t){norm(jacobian.x_by_u, jacobian.x_by_v), norm(jacobian.y_by_u, jacobian.y_by_v)};
     }
 }

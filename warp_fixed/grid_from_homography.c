@@ -39,8 +39,8 @@ static int64_t value_at(const grid_linear_t *form, int32_t u_half, int32_t v_hal
 static int32_t linear_from_reals(grid_linear_t *form, const real_t by_pixel[3])
 {
     const real_t reach = real_from_int(IMAGE_MAX_WIDTH, 0);
-    const real_t bound = real_add(real_mul(real_add(real_abs(by_pixel[0]), real_abs(by_pixel[1])), reach),
-                                  real_abs(by_pixel[2]));
+    const real_t bound =
+        real_add(real_mul(real_add(real_abs(by_pixel[0]), real_abs(by_pixel[1])), reach), real_abs(by_pixel[2]));
     const int32_t bits = FORM_BITS - (bound.exponent + 63);
     const int64_t limit = (int64_t)1 << FORM_BITS;
     form->u = real_to_fixed(by_pixel[0], bits - 1, limit);
@@ -116,12 +116,13 @@ static int64_t quotient_fixed(int64_t value, reciprocal_t w, int32_t exponent, i
 {
     const int shift = 63 + w.shift - exponent - fraction_bits;
     const int128_t product = (int128_t)value * w.reciprocal;
+    const int64_t limit = (int64_t)1 << 52;
     if (shift > 120)
         return 0;
-    const int128_t limit = (int128_t)1 << 52;
-    const int128_t rounded = shift > 0 ? (product + ((int128_t)1 << (shift - 1))) >> shift
-                                       : (product > 0 ? limit : product < 0 ? -limit : 0);
-    return (int64_t)(rounded > limit ? limit : rounded < -limit ? -limit : rounded);
+    if (shift <= 0)
+        return product > 0 ? limit : product < 0 ? -limit : 0;
+    const int128_t rounded = (product + ((int128_t)1 << (shift - 1))) >> shift;
+    return rounded > limit ? limit : rounded < -limit ? -limit : (int64_t)rounded;
 }
 
 static short_t short_from_wide(int128_t wide)
@@ -219,8 +220,8 @@ static void differences(int32_t out[3], int64_t middle_q18, int64_t slope_q24, c
     const int64_t bend_q24 = floor_shift(slope_q24 * turn_q32, 32);
     const int64_t dd_q18 =
         span_log2 > 0 ? -round_shift(bend_q24 + floor_shift(bend_q24 * square_q32, 32), 5) : 0; /* 2 E */
-    const int64_t first_q24 = (middle_q18 * 64) - floor_shift(d_q24 * (count - 1), 1) +
-                              dd_q18 * 8 * (count - 1) * (count - 1);
+    const int64_t first_q24 =
+        (middle_q18 * 64) - floor_shift(d_q24 * (count - 1), 1) + dd_q18 * 8 * (count - 1) * (count - 1);
     const int64_t step_q24 = d_q24 + dd_q18 * 32 * (2 - count);
     out[0] = (int32_t)round_shift(first_q24, 6);
     out[1] = (int32_t)round_shift(step_q24, 6);

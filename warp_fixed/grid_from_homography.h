@@ -30,7 +30,7 @@ typedef struct {
 typedef struct {
     int32_t panel_width, panel_height;
     int32_t picture_width, picture_height;
-    grid_linear_t x, y, w;  /**< picture point = (x, y) / w * 2^(x, y)_exponent */
+    grid_linear_t x, y, w; /**< picture point = (x, y) / w * 2^(x, y)_exponent */
     int32_t x_exponent, y_exponent;
     grid_row_t row[IMAGE_MAX_HEIGHT];
 } grid_t;

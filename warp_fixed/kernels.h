@@ -58,9 +58,9 @@ enum {
 /** A symmetric FIR filter, in the two formats of fixed.h. */
 typedef struct {
     int32_t radius;
-    int32_t first_shift;                        /**< 0, or LONG_FIRST_SHIFT when radius > PREFILTER_SHORT_RADIUS */
-    int16_t first[PREFILTER_MAX_RADIUS + 1];    /**< of distance 0, 1, ...: first[0] + 2 sum = FIRST_SUM << first_shift */
-    int16_t second[PREFILTER_MAX_RADIUS + 1];   /**< likewise, SECOND_SUM */
+    int32_t first_shift;                      /**< 0, or LONG_FIRST_SHIFT when radius > PREFILTER_SHORT_RADIUS */
+    int16_t first[PREFILTER_MAX_RADIUS + 1];  /**< of distance 0, 1, ...: first[0] + 2 sum = FIRST_SUM << first_shift */
+    int16_t second[PREFILTER_MAX_RADIUS + 1]; /**< likewise, SECOND_SUM */
 } fir_t;
 
 /**

@@ -5,10 +5,14 @@
 #include <stddef.h>
 
 const warp_method_t warp_methods[WARP_METHODS] = {
-    {"none+nearest", WARP_FILTER_NONE, WARP_NEAREST},   {"none+linear", WARP_FILTER_NONE, WARP_LINEAR},
-    {"none+cubic", WARP_FILTER_NONE, WARP_CUBIC},       {"gauss+nearest", WARP_FILTER_GAUSS, WARP_NEAREST},
-    {"gauss+linear", WARP_FILTER_GAUSS, WARP_LINEAR},   {"gauss+cubic", WARP_FILTER_GAUSS, WARP_CUBIC},
-    {"area", WARP_FILTER_NONE, WARP_AREA},              {"mean+cubic", WARP_FILTER_NONE, WARP_MEAN_CUBIC},
+    {"none+nearest", WARP_FILTER_NONE, WARP_NEAREST},
+    {"none+linear", WARP_FILTER_NONE, WARP_LINEAR},
+    {"none+cubic", WARP_FILTER_NONE, WARP_CUBIC},
+    {"gauss+nearest", WARP_FILTER_GAUSS, WARP_NEAREST},
+    {"gauss+linear", WARP_FILTER_GAUSS, WARP_LINEAR},
+    {"gauss+cubic", WARP_FILTER_GAUSS, WARP_CUBIC},
+    {"area", WARP_FILTER_NONE, WARP_AREA},
+    {"mean+cubic", WARP_FILTER_NONE, WARP_MEAN_CUBIC},
 };
 
 static bool same_text(const char *a, const char *b)

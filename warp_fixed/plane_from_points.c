@@ -12,8 +12,7 @@ static void jacobi_rotate(real_t covariance[3][3], real_t vectors[3][3], int p, 
     if (real_sign(covariance[p][q]) == 0)
         return;
     const real_t one = real_from_int(1, 0);
-    const real_t theta =
-        real_div(real_sub(covariance[q][q], covariance[p][p]), real_scale(covariance[p][q], 1));
+    const real_t theta = real_div(real_sub(covariance[q][q], covariance[p][p]), real_scale(covariance[p][q], 1));
     const real_t root = real_sqrt(real_add(real_mul(theta, theta), one));
     real_t t = real_div(one, real_add(real_abs(theta), root));
     if (real_sign(theta) < 0)

@@ -16,7 +16,7 @@ typedef struct {
     real_t at[PLANE_MAX_POINTS][3];
 } cloud_t;
 
-/** A frame on the plane: its origin is the mean of the points, x and y run along it, n = x cross y, all unit vectors. */
+/** A frame on the plane: its origin is the mean of the points; x, y along it and n = x cross y are unit vectors. */
 typedef struct {
     real_t mean[3];
     real_t x[3], y[3], n[3];

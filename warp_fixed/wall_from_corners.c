@@ -76,8 +76,8 @@ static int corners_on_plane(real_t xy[4][2], const plane_t *plane, const cloud_t
     }
     if (unknown >= 0)
         for (int a = 0; a < 2; a++)
-            xy[unknown][a] = real_sub(real_add(xy[(unknown + 1) & 3][a], xy[(unknown + 3) & 3][a]),
-                                      xy[(unknown + 2) & 3][a]);
+            xy[unknown][a] =
+                real_sub(real_add(xy[(unknown + 1) & 3][a], xy[(unknown + 3) & 3][a]), xy[(unknown + 2) & 3][a]);
     return unknown;
 }
 
@@ -130,9 +130,8 @@ static int32_t worst_skew_mdeg(const real_t xy[4][2])
             to_last[a] = real_sub(xy[(c + 3) & 3][a], xy[c][a]);
         }
         const real_t dot = real_add(real_mul(to_next[0], to_last[0]), real_mul(to_next[1], to_last[1]));
-        const real_t squares =
-            real_mul(real_add(real_mul(to_next[0], to_next[0]), real_mul(to_next[1], to_next[1])),
-                     real_add(real_mul(to_last[0], to_last[0]), real_mul(to_last[1], to_last[1])));
+        const real_t squares = real_mul(real_add(real_mul(to_next[0], to_next[0]), real_mul(to_next[1], to_next[1])),
+                                        real_add(real_mul(to_last[0], to_last[0]), real_mul(to_last[1], to_last[1])));
         const real_t cosine = real_div(real_abs(dot), real_sqrt(squares));
         if (real_less(worst, cosine))
             worst = cosine;

@@ -37,10 +37,10 @@ typedef struct {
     int32_t origin_um[3];
     real_t point[3][3];
     real_t weight[3];
-    int32_t rms_um;     /**< of the measured points' distances from the least-squares plane */
-    int32_t worst_um;   /**< the largest of them */
-    int32_t marker_um;  /**< worst distance, within the plane, between a marker and where the map puts its pixel */
-    int32_t skew_mdeg;  /**< largest departure of a corner angle from 90 degrees, millidegrees */
+    int32_t rms_um;    /**< of the measured points' distances from the least-squares plane */
+    int32_t worst_um;  /**< the largest of them */
+    int32_t marker_um; /**< worst distance, within the plane, between a marker and where the map puts its pixel */
+    int32_t skew_mdeg; /**< largest departure of a corner angle from 90 degrees, millidegrees */
 } wall_t;
 
 typedef enum {

@@ -11,7 +11,7 @@ typedef struct {
     warp_t *warp;
     const warp_kernels_t *kernels;
     const image_t *panel;
-    image_t picture; /* after the prefilter */
+    image_t picture;                                    /* after the prefilter */
     window_t window[IMAGE_MAX_WIDTH / FOOTPRINT_BLOCK]; /* of the present band's blocks */
 } frame_t;
 
@@ -96,8 +96,8 @@ static void make_row(const frame_t *frame, int32_t j)
 
 static bool image_fits(const image_t *image, int32_t width, int32_t height, image_format_t format)
 {
-    return image->width == width && image->height == height && image->format == format && width >= 1 &&
-           height >= 1 && width <= IMAGE_MAX_WIDTH && height <= IMAGE_MAX_HEIGHT;
+    return image->width == width && image->height == height && image->format == format && width >= 1 && height >= 1 &&
+           width <= IMAGE_MAX_WIDTH && height <= IMAGE_MAX_HEIGHT;
 }
 
 bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *report, const homography_t *homography,
@@ -112,8 +112,8 @@ bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *repo
     levels_begin(&warp->levels);
     frame_t frame = {.warp = warp, .kernels = kernels, .panel = panel, .picture = *picture};
     if (warp->method.filter == WARP_FILTER_GAUSS)
-        frame.picture = prefilter_picture(&warp->prefilter, kernels, picture,
-                                          warp->step_all ? step.all_q16 : step.in_q16);
+        frame.picture =
+            prefilter_picture(&warp->prefilter, kernels, picture, warp->step_all ? step.all_q16 : step.in_q16);
 
     int32_t lit = 0;
     for (int32_t j = 0; j < panel->height; j++) {

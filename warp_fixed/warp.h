@@ -16,11 +16,11 @@
 #include "warp_fixed/prefilter.h"
 #include "warp_fixed/window_weights.h"
 
-/** Everything a board needs between and within frames; about 60 MB, most of it never touched by small pictures. */
+/** Everything a board needs between and within frames; about 48 MB, most of it never touched by small pictures. */
 typedef struct {
     warp_method_t method;
-    bool step_all;           /**< take k over the whole wall, not only over what lands in the picture */
-    uint8_t border[4];       /**< B, G, R, X of unlit pixels; border[0] alone for gray */
+    bool step_all;     /**< take k over the whole wall, not only over what lands in the picture */
+    uint8_t border[4]; /**< B, G, R, X of unlit pixels; border[0] alone for gray */
     window_weights_t weights;
     grid_t grid;
     footprint_band_t band;

@@ -18,8 +18,8 @@ enum {
     WINDOW_SIDES = 64 + 6 * 32 + 1, /**< below 1 px in steps of 1/64, then 32 steps to each doubling, up to 64 px */
     WINDOW_MAX_SIDE = 64,           /**< picture pixels; larger footprints are read from halved levels */
     WINDOW_MAX_TAPS = WINDOW_MAX_SIDE + 4,
-    WINDOW_SHORT_TAPS = 8,          /**< up to here the first pass has 8-bit weights */
-    WINDOW_POOL = 4212 * PHASES     /**< weights of all sides of the widest kernel, half width 2 */
+    WINDOW_SHORT_TAPS = 8,      /**< up to here the first pass has 8-bit weights */
+    WINDOW_POOL = 4212 * PHASES /**< weights of all sides of the widest kernel, half width 2 */
 };
 
 /** Weights along one axis for one side: row `phase` of each table has `taps` entries. */
@@ -41,8 +41,8 @@ typedef struct {
 
 /** Which entry of the table serves a footprint's side, and from which level of the picture. */
 typedef struct {
-    uint16_t side;  /**< 0 to WINDOW_SIDES - 1 */
-    uint8_t level;  /**< the axis is divided by 8^level */
+    uint16_t side; /**< 0 to WINDOW_SIDES - 1 */
+    uint8_t level; /**< the axis is divided by 8^level */
 } window_side_t;
 
 /** Build the table of a resampler. WARP_NEAREST has none: its table is left as it is. */

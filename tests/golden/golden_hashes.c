@@ -45,8 +45,9 @@ static void paint(void)
             for (int c = 0; c < 4; c++) {
                 noise = noise * 1664525u + 1013904223u;
                 const int pattern = (x / 16 + y / 16) % 3;
-                const int level = pattern == 0 ? (int)(noise >> 24) : pattern == 1 ? (x * 5 + y * 3 + c * 40) % 256
-                                                                                   : ((x ^ y) & 1) * 255;
+                const int level = pattern == 0   ? (int)(noise >> 24)
+                                  : pattern == 1 ? (x * 5 + y * 3 + c * 40) % 256
+                                                 : ((x ^ y) & 1) * 255;
                 picture_bytes[(y * PICTURE_WIDTH + x) * 4 + c] = (uint8_t)level;
             }
         }
@@ -55,11 +56,11 @@ static void paint(void)
 
 static void print_frame(const viewpoint_t *viewpoint, const warp_method_t *method, image_format_t format)
 {
-    const wall_corners_t corners = {.panel_width = PANEL_WIDTH,
-                                    .panel_height = PANEL_HEIGHT,
-                                    .corner_um = {{-2000000, -1125000, 0}, {2000000, -1125000, 0},
-                                                  {1950000, 1125000, 0}, {-2000000, 1105000, 0}},
-                                    .corner_known = {true, true, true, true}};
+    const wall_corners_t corners = {
+        .panel_width = PANEL_WIDTH,
+        .panel_height = PANEL_HEIGHT,
+        .corner_um = {{-2000000, -1125000, 0}, {2000000, -1125000, 0}, {1950000, 1125000, 0}, {-2000000, 1105000, 0}},
+        .corner_known = {true, true, true, true}};
     const camera_t camera = {PICTURE_WIDTH, PICTURE_HEIGHT, {156250000, 156666667}, {125000000, 70500000}};
     const uint8_t border[3] = {1, 2, 3};
     const image_t picture = {picture_bytes, PICTURE_WIDTH, PICTURE_HEIGHT, PICTURE_WIDTH * (int32_t)format, format};

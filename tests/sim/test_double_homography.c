@@ -14,12 +14,12 @@
 
 static long double along(const double form[3], const long double xy[2])
 {
-    return form[0] * xy[0] + form[1] * xy[1] + form[2];
+    return (long double)form[0] * xy[0] + (long double)form[1] * xy[1] + (long double)form[2];
 }
 
 /* Panel point (u, v) of the wall, there and back. Points near or behind the viewer's plane are left out. */
-static void check_point(uint64_t seed, const oracle_homography_t *oracle, const double_homography_t *h, double u,
-                        double v)
+static void check_point(uint64_t seed, const oracle_homography_t *oracle, const double_homography_t *h, long double u,
+                        long double v)
 {
     long double xy[2], depth_m;
     oracle_point(oracle, u, v, xy, &depth_m);
@@ -30,8 +30,8 @@ static void check_point(uint64_t seed, const oracle_homography_t *oracle, const 
     const double u_error = (double)fabsl(a / c - u), v_error = (double)fabsl(b / c - v);
     const double depth_error = (double)fabsl(along(h->inverse_depth, xy) * depth_m - 1);
     if (!(c > 0 && u_error < 1e-6 && v_error < 1e-6 && depth_error < 1e-8))
-        fail_msg("seed %llu, panel point %.1f, %.1f: c %g, off by %g and %g px, depth by %g", (unsigned long long)seed,
-                 u, v, (double)c, u_error, v_error, depth_error);
+        fail_msg("seed %llu, panel point %.1Lf, %.1Lf: c %g, off by %g and %g px, depth by %g",
+                 (unsigned long long)seed, u, v, (double)c, u_error, v_error, depth_error);
 }
 
 static void random_walls_there_and_back(void **state)
@@ -56,7 +56,8 @@ static void random_walls_there_and_back(void **state)
         oracle_wall(&oracle_plane, &random.corners);
         oracle_homography(&oracle, &random.camera, &oracle_plane, &random.pose);
         for (int n = 0; n < 20; n++)
-            check_point(seed, &oracle, &h, rng_double(&rng, 0, h.panel_width), rng_double(&rng, 0, h.panel_height));
+            check_point(seed, &oracle, &h, (long double)rng_double(&rng, 0, h.panel_width),
+                        (long double)rng_double(&rng, 0, h.panel_height));
     }
 }
 

@@ -57,13 +57,18 @@ test_psnr_tables() {
     got_rows >"$scratch/got"
     awk -F'|' '
         function away(a, b) { return a == b ? 0 : a == "inf" || b == "inf" ? 99 : a > b ? a - b : b - a }
-        FILENAME == ARGV[1] { at = index($6, ","); got[$1 $2 $3 $4 $5 "|" substr($6, 1, at - 1)] = substr($6, at + 1); next }
+        FILENAME == ARGV[1] {
+            at = index($6, ",")
+            got[$1 $2 $3 $4 $5 "|" substr($6, 1, at - 1)] = substr($6, at + 1)
+            next
+        }
         { split(got[$1 $2 $3 $4 $5 "|" $6], g, ",")
           gap = g[1] == g[2] ? 0 : g[2] == "inf" ? 99 : g[2] - g[1]
           good = g[1] != "" && away(g[1], $7) <= 0.1 && ($6 != "area" || $3 != "-" || gap <= 0.12) &&
                  g[3] >= $8 - 0.0001 && g[3] <= 1.02 * $8 && g[4] >= $9 - 0.0001 && g[4] <= 1.02 * $9 &&
                  away(g[5], $10) <= 0.0002
-          print (good ? "pass" : "FAIL") " psnr " $0 " got " g[1] ", limit " g[2] ", k " g[3] " " g[4] ", coverage " g[5]
+          print (good ? "pass" : "FAIL") " psnr " $0 " got " g[1] ", limit " g[2] ", k " g[3] " " g[4] \
+                ", coverage " g[5]
         }' "$scratch/got" "$scratch/expected" >"$scratch/psnr"
     grep FAIL "$scratch/psnr"
     cat "$scratch/psnr" >>"$results"
@@ -83,8 +88,8 @@ test_grid_table() {
             for point in $points; do
                 set -- "$@" --at "$point"
             done
-            "$eval_program" grid $oracle/room_grid.yaml --board "$board" --pose "$pose" "$@" </dev/null 2>"$scratch/err" ||
-                cat "$scratch/err" >&2
+            "$eval_program" grid $oracle/room_grid.yaml --board "$board" --pose "$pose" "$@" \
+                </dev/null 2>"$scratch/err" || cat "$scratch/err" >&2
         done >"$scratch/grid"
     sed 1d "$scratch/expected_grid.csv" | tr ',' '|' | paste -d'|' - "$scratch/grid" | awk -F'|' '
         function near(a, b, by) { return a - b <= by && b - a <= by }
@@ -118,8 +123,8 @@ prints() {
 
 test_formats() {
     "$eval_program" grid $front --pose '0 0 -2500 1 0 0 0' --at 0,0 --at 479,269 --at 240,135 >"$scratch/out"
-    prints 'grid prints six fields' '0 0 0\.500000 0\.500000 2500\.000 1' '479 269 479\.500000 269\.500000 2500\.000 1' \
-        '240 135 240\.500000 135\.500000 2500\.000 1'
+    prints 'grid prints six fields' '0 0 0\.500000 0\.500000 2500\.000 1' \
+        '479 269 479\.500000 269\.500000 2500\.000 1' '240 135 240\.500000 135\.500000 2500\.000 1'
     "$eval_program" grid $front --pose '0 0 -2500 0 0 1 0' --at 3,4 >"$scratch/out"
     prints 'grid behind the viewer' '3 4 - - -2500\.000 0'
     "$eval_program" grid $front --pose "$mirror" --at=0,135 >"$scratch/out"
@@ -136,7 +141,8 @@ test_formats() {
     "$eval_program" psnr $front --pose '0 0 -2500 1 0 0 0' --in $images/studio_480x270.png --method all \
         --method mean+cubic >"$scratch/out"
     prints 'the last --method counts' 'method,.*' 'mean\+cubic,.*'
-    "$eval_program" psnr $front --pose '0 0 -2500 0 0 1 0' --in $images/studio_480x270.png --method limit >"$scratch/out"
+    "$eval_program" psnr $front --pose '0 0 -2500 0 0 1 0' --in $images/studio_480x270.png --method limit \
+        >"$scratch/out"
     prints 'psnr of a wall behind the viewer' 'method,.*' 'limit,inf,inf,0\.0000,[0-9]+\.0000,0\.0000'
     for command in '' grid psnr; do
         "$eval_program" $command --help >"$scratch/out" 2>&1 && grep -q '^Usage: wallwarp-eval' "$scratch/out"

@@ -149,11 +149,14 @@ static void make_case(random_case_t *random, uint64_t seed)
     const double scale_y = (double)sizes.picture_height / sizes.panel_height;
     /* Depth varies by up to 2 times across the panel each way: often part of it is behind the viewer. */
     const double rows[9] = {
-        scale_x + uniform(rng, scale_x),      uniform(rng, scale_x),
+        scale_x + uniform(rng, scale_x),
+        uniform(rng, scale_x),
         uniform(rng, 0.3 * sizes.picture_width),
-        uniform(rng, scale_y),                scale_y + uniform(rng, scale_y),
+        uniform(rng, scale_y),
+        scale_y + uniform(rng, scale_y),
         uniform(rng, 0.3 * sizes.picture_height),
-        uniform(rng, 2.0 / sizes.panel_width), uniform(rng, 2.0 / sizes.panel_height),
+        uniform(rng, 2.0 / sizes.panel_width),
+        uniform(rng, 2.0 / sizes.panel_height),
         1.0,
     };
     memcpy(random->rows, rows, sizeof rows);
@@ -167,15 +170,16 @@ static void make_case(random_case_t *random, uint64_t seed)
 static int32_t pixel_under(const random_case_t *random, long double x, long double y)
 {
     /* (row 0 - x row 2) . (u, v, 1) = 0 and (row 1 - y row 2) . (u, v, 1) = 0 */
-    long double f[3], g[3];
+    long double f[3], g[3], row_2[3];
     for (int k = 0; k < 3; k++) {
-        f[k] = random->rows[k] - x * random->rows[6 + k];
-        g[k] = random->rows[3 + k] - y * random->rows[6 + k];
+        row_2[k] = (long double)random->rows[6 + k];
+        f[k] = (long double)random->rows[k] - x * row_2[k];
+        g[k] = (long double)random->rows[3 + k] - y * row_2[k];
     }
     const long double determinant = f[0] * g[1] - f[1] * g[0];
     const long double u = (f[1] * g[2] - f[2] * g[1]) / determinant;
     const long double v = (f[2] * g[0] - f[0] * g[2]) / determinant;
-    const long double depth = random->rows[6] * u + random->rows[7] * v + random->rows[8];
+    const long double depth = row_2[0] * u + row_2[1] * v + row_2[2];
     const homography_sizes_t sizes = random->sizes;
     if (!(depth > 0 && u >= 0 && v >= 0 && u < sizes.panel_width && v < sizes.panel_height))
         return -1;
@@ -237,8 +241,8 @@ static void agrees_with_a_count_by_sample(void **state)
     static random_case_t random;
     for (uint64_t seed = 1; seed <= 300; seed++) {
         make_case(&random, seed);
-        const image_t truth = gray(random.truth, random.sizes.picture_width * random.finer,
-                                   random.sizes.picture_height * random.finer);
+        const image_t truth =
+            gray(random.truth, random.sizes.picture_width * random.finer, random.sizes.picture_height * random.finer);
         mesh_t mesh = sample(random.rows, random.sizes, &truth, random.factor);
         check_case(&random, &mesh, &truth);
         check_limit(&random, &mesh);
@@ -276,12 +280,9 @@ static void bad_sizes_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(same_picture_is_perfect),
-        cmocka_unit_test(panel_twice_as_fine_has_its_pixels_in_place),
-        cmocka_unit_test(finer_original_is_the_truth),
-        cmocka_unit_test(wall_behind_the_viewer_covers_nothing),
-        cmocka_unit_test(agrees_with_a_count_by_sample),
-        cmocka_unit_test(bad_sizes_are_refused),
+        cmocka_unit_test(same_picture_is_perfect),       cmocka_unit_test(panel_twice_as_fine_has_its_pixels_in_place),
+        cmocka_unit_test(finer_original_is_the_truth),   cmocka_unit_test(wall_behind_the_viewer_covers_nothing),
+        cmocka_unit_test(agrees_with_a_count_by_sample), cmocka_unit_test(bad_sizes_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

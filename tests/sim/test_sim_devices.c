@@ -36,8 +36,8 @@ static void test_virtual_time(void **state)
 static void test_offset_and_drift(void **state)
 {
     (void)state;
-    hal_time_t *clock = create_clock(
-        (sim_clock_settings_t){.epoch_us = 5000000, .offset_us = -300, .drift_ppb = 40000});
+    hal_time_t *clock =
+        create_clock((sim_clock_settings_t){.epoch_us = 5000000, .offset_us = -300, .drift_ppb = 40000});
     assert_int_equal(hal_time_now_us(clock), 5000000 - 300);
     sim_clock_set_us(clock, 5000000 + 1000000);
     assert_int_equal(hal_time_now_us(clock), 6000000 - 300 + 40);

@@ -290,10 +290,14 @@ static void test_bad_settings(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pictures_flip_at_blanks),   cmocka_unit_test(test_missed_blanks_are_counted),
-        cmocka_unit_test(test_borrowing_rules),           cmocka_unit_test(test_refused_flips),
-        cmocka_unit_test(test_late_flips),                cmocka_unit_test(test_unplugged),
-        cmocka_unit_test(test_blanks_before_the_first_one), cmocka_unit_test(test_bad_settings),
+        cmocka_unit_test(test_pictures_flip_at_blanks),
+        cmocka_unit_test(test_missed_blanks_are_counted),
+        cmocka_unit_test(test_borrowing_rules),
+        cmocka_unit_test(test_refused_flips),
+        cmocka_unit_test(test_late_flips),
+        cmocka_unit_test(test_unplugged),
+        cmocka_unit_test(test_blanks_before_the_first_one),
+        cmocka_unit_test(test_bad_settings),
         cmocka_unit_test(test_a_real_clock_is_waited_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

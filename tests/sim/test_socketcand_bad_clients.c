@@ -23,10 +23,28 @@ static void test_wrong_commands_are_answered_and_send_nothing(void **state)
 {
     (void)state;
     static const char *const wrong[] = {
-        "<>", "< >", "< dance >", "< send >", "< send 12 >", "< send 12 1 >", "< send 12 1 1 2 >", "< send 12 9 >",
-        "< send 12 1 100 >", "< send 12 1 x >", "< send 20000000 0 >", "< send 123456789 0 >", "< send -1 0 >",
-        "< send 12 -1 >", "< send 12 10 >", "< send 12 8 1 2 3 4 5 6 7 8 9 >", "< open can1 >", "< open >",
-        "< open can0 can0 >", "< open a_channel_name_without_end >", "< rawmode now >", "< sendrtr 1 0 >",
+        "<>",
+        "< >",
+        "< dance >",
+        "< send >",
+        "< send 12 >",
+        "< send 12 1 >",
+        "< send 12 1 1 2 >",
+        "< send 12 9 >",
+        "< send 12 1 100 >",
+        "< send 12 1 x >",
+        "< send 20000000 0 >",
+        "< send 123456789 0 >",
+        "< send -1 0 >",
+        "< send 12 -1 >",
+        "< send 12 10 >",
+        "< send 12 8 1 2 3 4 5 6 7 8 9 >",
+        "< open can1 >",
+        "< open >",
+        "< open can0 can0 >",
+        "< open a_channel_name_without_end >",
+        "< rawmode now >",
+        "< sendrtr 1 0 >",
         "< send 1 < send 2 0 >",
     };
     const socketcand_bench_t bench = socketcand_bench_begin();

@@ -163,8 +163,8 @@ static void test_bad_videos_say_what_is_wrong(void **state)
     write_png(*state, "mixed_0.png", 1, W);
     write_png(*state, "mixed_1.png", 1, W + 2);
     assert_refused(*state, "mixed_%d.png", "mixed_1.png: picture 8x4, the room's camera is 6x4");
-    static const char *const patterns[] = {"a%s.png",    "a%n.png",  "a%5d.png", "a%d%d.png", "a%",
-                                           "a%0.png",    "a%00d.png", "a%012d.png", "a%ld.png", "a%%.png"};
+    static const char *const patterns[] = {"a%s.png", "a%n.png",   "a%5d.png",   "a%d%d.png", "a%",
+                                           "a%0.png", "a%00d.png", "a%012d.png", "a%ld.png",  "a%%.png"};
     for (int i = 0; i < 10; i++)
         assert_refused(*state, patterns[i], "expected exactly one %d or %0Nd");
     static const struct {
@@ -180,8 +180,7 @@ static void test_bad_videos_say_what_is_wrong(void **state)
         assert_refused(*state, files[i].name, files[i].wanted);
     }
     assert_null(video_open("tests/images/coffee_510x290.png", 1920, 1080, error));
-    assert_string_equal(error,
-                        "tests/images/coffee_510x290.png: picture 510x290, the room's camera is 1920x1080");
+    assert_string_equal(error, "tests/images/coffee_510x290.png: picture 510x290, the room's camera is 1920x1080");
 }
 
 static void test_a_picture_that_vanishes_is_reported(void **state)

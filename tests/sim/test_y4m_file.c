@@ -110,8 +110,8 @@ static void test_hd_pictures_are_bt709(void **state)
         char error[FILE_ERROR_LENGTH];
         assert_true(y4m_file_frame(y4m, 0, &image, error));
         const uint8_t *samples = draft.bytes + strlen(header);
-        const rgb_t rgb = rgb_from_yuv(yuv_matrix(height == 720, false), samples[0], samples[2 * height],
-                                       samples[4 * height]);
+        const rgb_t rgb =
+            rgb_from_yuv(yuv_matrix(height == 720, false), samples[0], samples[2 * height], samples[4 * height]);
         assert_int_equal(pixels[2], rgb.red);
         assert_int_equal(pixels[1], rgb.green);
         y4m_file_close(y4m);
@@ -150,7 +150,8 @@ static void test_broken_files_say_what_is_wrong(void **state)
         {"YUV4MPEG2 W1 H1 X"
          "xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx"
          "xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx"
-         "xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx\n", "not a Y4M file"},
+         "xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx\n",
+         "not a Y4M file"},
         {"YUV4MPEG2", "not a Y4M file"},
         {"YUV4MPEG W4 H4\nFRAME\n", "not a Y4M file"},
         {"YUV4MPEG2 \001W4 H4\n", "not a Y4M file"},

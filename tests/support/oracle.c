@@ -170,8 +170,8 @@ double oracle_incidence_deg(const oracle_wall_t *wall, const pose_t *pose, long 
     const long double weight = wall->weight[0] * u + wall->weight[1] * v + wall->weight[2];
     long double along = 0, square = 0;
     for (int k = 0; k < 3; k++) {
-        const long double ray = (wall->point[k][0] * u + wall->point[k][1] * v + wall->point[k][2]) / weight -
-                                pose->eye_nm[k] * 1e-9L;
+        const long double ray =
+            (wall->point[k][0] * u + wall->point[k][1] * v + wall->point[k][2]) / weight - pose->eye_nm[k] * 1e-9L;
         along += ray * wall->normal[k];
         square += ray * ray;
     }
@@ -242,18 +242,17 @@ static void look_along(int32_t quaternion_q30[4], const double forward[3], rng_t
     for (int k = 0; k < 3; k++)
         down[k] = forward[(k + 1) % 3] * right[(k + 2) % 3] - forward[(k + 2) % 3] * right[(k + 1) % 3];
     /* Columns right, down, forward; the largest of the four candidates is safe to divide by. */
-    const double m[3][3] = {{right[0], down[0], forward[0]}, {right[1], down[1], forward[1]},
-                            {right[2], down[2], forward[2]}};
+    const double m[3][3] = {
+        {right[0], down[0], forward[0]}, {right[1], down[1], forward[1]}, {right[2], down[2], forward[2]}};
     const double squares[4] = {1 + m[0][0] + m[1][1] + m[2][2], 1 + m[0][0] - m[1][1] - m[2][2],
                                1 - m[0][0] + m[1][1] - m[2][2], 1 - m[0][0] - m[1][1] + m[2][2]};
     int best = 0;
     for (int i = 1; i < 4; i++)
         best = squares[i] > squares[best] ? i : best;
-    const double terms[4][4] = {
-        {squares[0], m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]},
-        {m[2][1] - m[1][2], squares[1], m[0][1] + m[1][0], m[0][2] + m[2][0]},
-        {m[0][2] - m[2][0], m[0][1] + m[1][0], squares[2], m[1][2] + m[2][1]},
-        {m[1][0] - m[0][1], m[0][2] + m[2][0], m[1][2] + m[2][1], squares[3]}};
+    const double terms[4][4] = {{squares[0], m[2][1] - m[1][2], m[0][2] - m[2][0], m[1][0] - m[0][1]},
+                                {m[2][1] - m[1][2], squares[1], m[0][1] + m[1][0], m[0][2] + m[2][0]},
+                                {m[0][2] - m[2][0], m[0][1] + m[1][0], squares[2], m[1][2] + m[2][1]},
+                                {m[1][0] - m[0][1], m[0][2] + m[2][0], m[1][2] + m[2][1], squares[3]}};
     const double scale = 0.5 / sqrt(squares[best]);
     for (int i = 0; i < 4; i++)
         quaternion_q30[i] = (int32_t)lround(terms[best][i] * scale * 1073741824.0);
@@ -265,15 +264,15 @@ void oracle_random_case(oracle_case_t *out, rng_t *rng)
     random_wall(&out->corners, rng);
     oracle_wall(&wall, &out->corners);
     const int32_t width = (int32_t)rng_int(rng, 320, 4096), height = (int32_t)rng_int(rng, 240, 2160);
-    out->camera = (camera_t){width, height,
-                             {(int64_t)(width * rng_double(rng, 0.4, 1.2) * 1e6),
-                              (int64_t)(width * rng_double(rng, 0.4, 1.2) * 1e6)},
-                             {(int64_t)(width * rng_double(rng, 0.4, 0.6) * 1e6),
-                              (int64_t)(height * rng_double(rng, 0.4, 0.6) * 1e6)}};
+    out->camera = (camera_t){
+        width,
+        height,
+        {(int64_t)(width * rng_double(rng, 0.4, 1.2) * 1e6), (int64_t)(width * rng_double(rng, 0.4, 1.2) * 1e6)},
+        {(int64_t)(width * rng_double(rng, 0.4, 0.6) * 1e6), (int64_t)(height * rng_double(rng, 0.4, 0.6) * 1e6)}};
 
     /* The eye: a random direction off a random point of the wall, 0.3 m or more from its plane. */
-    const double u = out->corners.panel_width * rng_double(rng, 0, 1);
-    const double v = out->corners.panel_height * rng_double(rng, 0, 1);
+    const long double u = (long double)(out->corners.panel_width * rng_double(rng, 0, 1));
+    const long double v = (long double)(out->corners.panel_height * rng_double(rng, 0, 1));
     const long double weight = wall.weight[0] * u + wall.weight[1] * v + wall.weight[2];
     double r[3][3], forward[3], along = 0, length = 0;
     random_rotation(r, rng);

@@ -14,8 +14,8 @@ enum { ROOM_BENCH_HZ = 60, ROOM_BENCH_BOARDS = 2 };
 /** What a board has said of itself on the bus. */
 typedef struct {
     int heartbeats, statuses;
-    uint32_t flags_ever;   /**< fault flags of all heartbeats */
-    uint32_t states_ever;  /**< 1 << state of all heartbeats */
+    uint32_t flags_ever;       /**< fault flags of all heartbeats */
+    uint32_t states_ever;      /**< 1 << state of all heartbeats */
     can_heartbeat_t heartbeat; /**< the newest */
     can_status_t status;
 } room_bench_voice_t;
@@ -26,12 +26,12 @@ typedef struct {
     sim_world_t *world;
     hal_can_t *tracker;
     room_bench_voice_t voice[ROOM_BENCH_BOARDS];
-    int64_t step;         /**< the next one */
-    bool tracking;        /**< a pose before each step */
-    int poses;            /**< sent so far; the next one's number */
+    int64_t step;  /**< the next one */
+    bool tracking; /**< a pose before each step */
+    int poses;     /**< sent so far; the next one's number */
 } room_bench_t;
 
-/** Two boards, 96 x 54 px each, camera 96 x 54 with the test pattern; nobody has stepped yet. Fails the test on error. */
+/** Two boards and a camera of 96 x 54 px with the test pattern; nobody has stepped yet. Fails the test on error. */
 void room_bench_open(room_bench_t *bench, bool fd);
 
 void room_bench_close(room_bench_t *bench);

@@ -35,10 +35,13 @@ static void turned_scene(scene_t *scene, double degrees, int32_t panel_width, in
     scene->c = (oracle_case_t){
         .corners = {.panel_width = panel_width,
                     .panel_height = panel_height,
-                    .corner_um = {{-2000000, -1125000, 0}, {2000000, -1125000, 0}, {2000000, 1125000, 0},
+                    .corner_um = {{-2000000, -1125000, 0},
+                                  {2000000, -1125000, 0},
+                                  {2000000, 1125000, 0},
                                   {-2000000, 1125000, 0}},
                     .corner_known = {true, true, true, true}},
-        .camera = {picture_width, picture_height,
+        .camera = {picture_width,
+                   picture_height,
                    {picture_width * 625000LL, picture_width * 625000LL},
                    {picture_width * 500000LL, picture_height * 500000LL}},
         .pose = {{llround(2.5e9 * sin(a)), 0, llround(-2.5e9 * cos(a))},
@@ -135,11 +138,11 @@ static void block_sides_are_the_jacobian_s_rows(void **state)
                 const long double *w_row = scene.exact.row[2];
                 const long double w = w_row[0] * (i + 0.5L) + w_row[1] * (j - 0.5L) + w_row[2];
                 for (int a = 0; a < 2; a++)
-                    sides[a] = hypotl(scene.exact.row[a][0] - at[a] * w_row[0],
-                                      scene.exact.row[a][1] - at[a] * w_row[1]) / w;
+                    sides[a] =
+                        hypotl(scene.exact.row[a][0] - at[a] * w_row[0], scene.exact.row[a][1] - at[a] * w_row[1]) / w;
                 const double width = band.block[k].width_q16 / 65536.0, height = band.block[k].height_q16 / 65536.0;
-                if (fabs((double)(width - sides[0])) > (double)sides[0] * 1e-3 + 1e-4 ||
-                    fabs((double)(height - sides[1])) > (double)sides[1] * 1e-3 + 1e-4)
+                if (fabs(width - (double)sides[0]) > (double)sides[0] * 1e-3 + 1e-4 ||
+                    fabs(height - (double)sides[1]) > (double)sides[1] * 1e-3 + 1e-4)
                     fail_msg("seed %lu, block (%d, %d): %f x %f, expected %Lf x %Lf", (unsigned long)seed, k, b, width,
                              height, sides[0], sides[1]);
                 blocks++;

@@ -47,8 +47,8 @@ static void check_point(tally_t *tally, const oracle_case_t *c, const oracle_hom
     const double error = fmax(fabs((double)(x / 262144.0L - xy[0])), fabs((double)(y / 262144.0L - xy[1])));
     tally->worst_px = fmax(tally->worst_px, error);
     if (error > grid_error_limit_px)
-        fail_msg("seed %lu, pixel (%d, %d): (%f, %f), expected (%.6Lf, %.6Lf), span 2^%d", (unsigned long)tally->seed, i,
-                 j, x / 262144.0, y / 262144.0, xy[0], xy[1], grid.row[j].span_log2);
+        fail_msg("seed %lu, pixel (%d, %d): (%f, %f), expected (%.6Lf, %.6Lf), span 2^%d", (unsigned long)tally->seed,
+                 i, j, x / 262144.0, y / 262144.0, xy[0], xy[1], grid.row[j].span_log2);
 }
 
 static void random_cases_agree(void **state)
@@ -120,11 +120,11 @@ static void a_point_is_its_blocks_point(void **state)
 static void frontal_wall_maps_pixel_centres_exactly(void **state)
 {
     (void)state;
-    const wall_corners_t corners = {.panel_width = 1920,
-                                    .panel_height = 1080,
-                                    .corner_um = {{-2000000, -1125000, 0}, {2000000, -1125000, 0},
-                                                  {2000000, 1125000, 0}, {-2000000, 1125000, 0}},
-                                    .corner_known = {true, true, true, true}};
+    const wall_corners_t corners = {
+        .panel_width = 1920,
+        .panel_height = 1080,
+        .corner_um = {{-2000000, -1125000, 0}, {2000000, -1125000, 0}, {2000000, 1125000, 0}, {-2000000, 1125000, 0}},
+        .corner_known = {true, true, true, true}};
     const camera_t camera = {1920, 1080, {1200000000, 1200000000}, {960000000, 540000000}};
     const pose_t pose = {{0, 0, -2500000000}, {1 << 30, 0, 0, 0}};
     wall_t wall;
@@ -172,7 +172,8 @@ static void lit_pixels_are_those_that_reach_the_picture(void **state)
             long double beyond = 0; /* how far outside, in reaches of the pixel's square */
             const int32_t size[2] = {c.camera.width, c.camera.height};
             for (int a = 0; a < 2; a++) {
-                reach[a] = (fabsl(h.row[a][0] - xy[a] * h.row[2][0]) + fabsl(h.row[a][1] - xy[a] * h.row[2][1])) / w / 2;
+                reach[a] =
+                    (fabsl(h.row[a][0] - xy[a] * h.row[2][0]) + fabsl(h.row[a][1] - xy[a] * h.row[2][1])) / w / 2;
                 const long double outside = fmaxl(fmaxl(-xy[a], xy[a] - size[a]), 0);
                 beyond = fmaxl(beyond, outside / reach[a]);
             }
@@ -182,8 +183,8 @@ static void lit_pixels_are_those_that_reach_the_picture(void **state)
             const bool overlaps = depth > 0 && beyond <= 0.999L;
             const bool far = depth < 0 || beyond > 3;
             if ((overlaps && !lit) || (far && lit))
-                fail_msg("seed %lu, pixel (%d, %d): lit is %d, %.4Lf reaches outside at depth %.4Lf", (unsigned long)seed,
-                         i, j, lit, beyond, depth);
+                fail_msg("seed %lu, pixel (%d, %d): lit is %d, %.4Lf reaches outside at depth %.4Lf",
+                         (unsigned long)seed, i, j, lit, beyond, depth);
             lit_count += lit;
         }
     }

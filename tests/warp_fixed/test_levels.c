@@ -34,7 +34,9 @@ static void levels_are_means(void **state)
                     for (int32_t v = 0; v < step_y; v++)
                         for (int32_t u = 0; u < step_x; u++)
                             sum += pixels[(mirror_index(y * step_y + v, 100) * 150 +
-                                           mirror_index(x / 4 * step_x + u, 150)) * 4 + x % 4];
+                                           mirror_index(x / 4 * step_x + u, 150)) *
+                                              4 +
+                                          x % 4];
                     assert_int_equal(image_row(&level, y)[x], (sum + step_x * step_y / 2) / (step_x * step_y));
                 }
             }

@@ -85,8 +85,7 @@ static void pictures_are_filtered(void **state)
             for (int c = 0; c < 400; c++) {
                 const int x = (int)rng_int(&rng, 0, WIDTH - 1), y = (int)rng_int(&rng, 0, HEIGHT - 1);
                 const int channel = (int)rng_int(&rng, 0, format - 1);
-                const int expected =
-                    (int)floor(float_filtered(pixels, format, x, y, channel, k_q16 / 65536.0) + 0.5);
+                const int expected = (int)floor(float_filtered(pixels, format, x, y, channel, k_q16 / 65536.0) + 0.5);
                 const int error = abs(image_row(&out, y)[x * format + channel] - expected);
                 worst = error > worst ? error : worst;
             }

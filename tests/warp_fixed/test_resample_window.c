@@ -214,7 +214,8 @@ static void color_is_gray_four_times(void **state)
     }
 }
 
-/* The side chosen for a footprint is the nearest of the table; mean+cubic takes sqrt(w^2 - 1); large ones use levels. */
+/* The side chosen for a footprint is the nearest of the table; mean+cubic takes sqrt(w^2 - 1); large ones use levels.
+ */
 static void sides_follow_footprints(void **state)
 {
     (void)state;
@@ -226,7 +227,8 @@ static void sides_follow_footprints(void **state)
         const double cubic = reduced > 1 ? sqrt(reduced * reduced - 1) : 0;
         const window_side_t area = window_side(WARP_AREA, (uint32_t)lround(width * 65536));
         const window_side_t mean = window_side(WARP_MEAN_CUBIC, (uint32_t)lround(width * 65536));
-        if (area.level != level || mean.level != level || fabs(side_px(area.side) - reduced) > fmax(reduced, 0.5) / 60 ||
+        if (area.level != level || mean.level != level ||
+            fabs(side_px(area.side) - reduced) > fmax(reduced, 0.5) / 60 ||
             fabs(side_px(mean.side) - cubic) > fmax(cubic, 0.5) / 60)
             fail_msg("seed %lu: width %f, level %d: sides %f and %f", (unsigned long)seed, width, area.level,
                      side_px(area.side), side_px(mean.side));

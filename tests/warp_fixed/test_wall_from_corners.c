@@ -22,17 +22,18 @@ static void map_point(long double um[3], const wall_t *wall, long double u, long
     const long double weight =
         value_of(wall->weight[0]) * u + value_of(wall->weight[1]) * v + value_of(wall->weight[2]);
     for (int k = 0; k < 3; k++)
-        um[k] = wall->origin_um[k] + (value_of(wall->point[k][0]) * u + value_of(wall->point[k][1]) * v +
-                                      value_of(wall->point[k][2])) / weight;
+        um[k] =
+            wall->origin_um[k] +
+            (value_of(wall->point[k][0]) * u + value_of(wall->point[k][1]) * v + value_of(wall->point[k][2])) / weight;
 }
 
 static wall_corners_t plain_wall(void)
 {
-    return (wall_corners_t){.panel_width = 1920,
-                            .panel_height = 1080,
-                            .corner_um = {{-2000000, -1125000, 0}, {2000000, -1125000, 0}, {2000000, 1125000, 0},
-                                          {-2000000, 1125000, 0}},
-                            .corner_known = {true, true, true, true}};
+    return (wall_corners_t){
+        .panel_width = 1920,
+        .panel_height = 1080,
+        .corner_um = {{-2000000, -1125000, 0}, {2000000, -1125000, 0}, {2000000, 1125000, 0}, {-2000000, 1125000, 0}},
+        .corner_known = {true, true, true, true}};
 }
 
 static void corners_map_to_markers(void **state)
@@ -48,8 +49,8 @@ static void corners_map_to_markers(void **state)
         assert_int_equal(wall_from_corners(&wall, &c.corners), WALL_OK);
         assert_in_range(wall.worst_um, 0, 3); /* coplanar but for rounding to micrometres */
         for (int n = 0; n < 20; n++) {
-            const long double u = rng_double(&rng, 0, c.corners.panel_width);
-            const long double v = rng_double(&rng, 0, c.corners.panel_height);
+            const long double u = (long double)rng_double(&rng, 0, c.corners.panel_width);
+            const long double v = (long double)rng_double(&rng, 0, c.corners.panel_height);
             const long double weight = exact.weight[0] * u + exact.weight[1] * v + exact.weight[2];
             long double um[3];
             map_point(um, &wall, u, v);
@@ -173,9 +174,9 @@ static void extremes_do_not_overflow(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(corners_map_to_markers),       cmocka_unit_test(three_corners_complete_the_rectangle),
-        cmocka_unit_test(residuals_are_measured),       cmocka_unit_test(skew_is_the_corner_angles),
-        cmocka_unit_test(bad_corners_are_refused),      cmocka_unit_test(extremes_do_not_overflow),
+        cmocka_unit_test(corners_map_to_markers),  cmocka_unit_test(three_corners_complete_the_rectangle),
+        cmocka_unit_test(residuals_are_measured),  cmocka_unit_test(skew_is_the_corner_angles),
+        cmocka_unit_test(bad_corners_are_refused), cmocka_unit_test(extremes_do_not_overflow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -140,7 +140,8 @@ static void huge_footprints_see_the_mean(void **state)
 {
     (void)state;
     const int32_t panel_size[2] = {4, 3}, picture_size[2] = {3000, 2000};
-    const int64_t rows[3][3] = {{(int64_t)750 << 40, 0, (int64_t)375 << 40}, {0, (int64_t)666 << 40, (int64_t)333 << 40},
+    const int64_t rows[3][3] = {{(int64_t)750 << 40, 0, (int64_t)375 << 40},
+                                {0, (int64_t)666 << 40, (int64_t)333 << 40},
                                 {0, 0, (int64_t)1 << 40}};
     homography_t h;
     homography_from_indices(&h, rows, panel_size, picture_size);

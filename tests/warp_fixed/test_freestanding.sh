@@ -2,11 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Compile and link warp_fixed for aarch64 without an operating system, and look into what came out.
 #
-# usage: check.sh FOLDER FILE.c...    FOLDER takes the objects; each optimisation of -O2 and -O3 is checked
+# usage: test_freestanding.sh BUILD
 set -eu
-out=$1
-shift
-here=$(dirname "$0")
+out=$1/freestanding
 mkdir -p "$out"
 failed=0 passed=0
 check() { # TEXT CONDITION-STATUS
@@ -21,7 +19,7 @@ check() { # TEXT CONDITION-STATUS
 for opt in -O2 -O3; do
     flags="-std=c11 -I. $opt -Wall -Wextra -Werror -ffreestanding -nostdlib"
     objects=
-    for source in "$@"; do
+    for source in warp_fixed/*.c; do
         object=$out/$(basename "$source" .c)$opt.o
         aarch64-linux-gnu-gcc $flags -c "$source" -o "$object"
         objects="$objects $object"
@@ -44,7 +42,7 @@ for opt in -O2 -O3; do
     test -z "$float" && s=0 || { s=1; echo "$float"; }
     check "$opt has no floating-point arithmetic or conversion among its $(wc -l <"$library.mnemonics") instructions" $s
 
-    aarch64-linux-gnu-gcc $flags -fno-tree-loop-distribute-patterns -static "$here/start.c" "$library" \
+    aarch64-linux-gnu-gcc $flags -fno-tree-loop-distribute-patterns -static tests/warp_fixed/freestanding_start.c "$library" \
         -o "$out/freestanding$opt" && s=0 || s=1
     check "$opt links with -nostdlib" $s
 done
