@@ -58,6 +58,23 @@ static bool pose_header_fits(const can_pose_t *pose, int counters)
            (pose->quality == CAN_POSE_LOST || pose->quality == CAN_POSE_TRACKED || pose->quality == CAN_POSE_PREDICTED);
 }
 
+/*
+ * Components in Q15, which has no place for 1 or more. A quaternion with a component above 1 is up to 1 % too long: all
+ * are divided by 1.01, which turns nothing and leaves the length within the 1 % that receivers allow.
+ */
+static void quaternion_q15(int64_t q15[4], const int32_t q30[4])
+{
+    int64_t divisor = 100;
+    for (int i = 0; i < 4; i++)
+        if (q30[i] > 1 << 30 || q30[i] < -(1 << 30))
+            divisor = 101;
+    for (int i = 0; i < 4; i++) {
+        q15[i] = rounded((int64_t)q30[i] * 100 / divisor, 1 << 15);
+        if (q15[i] == 1 << 15)
+            q15[i]--;
+    }
+}
+
 bool can_pose_set_encode(hal_can_frame_t part[CAN_POSE_PARTS], const can_pose_t *pose)
 {
     int64_t position[3];
@@ -69,13 +86,10 @@ bool can_pose_set_encode(hal_can_frame_t part[CAN_POSE_PARTS], const can_pose_t 
         if (!can_field_fits_signed(SET_X, position[i]))
             return false;
     }
-    for (int i = 0; i < 4; i++) {
-        quaternion[i] = rounded(pose->pose.quaternion_q30[i], 1 << 15);
-        if (quaternion[i] == 1 << 15)
-            quaternion[i]--; /* +1 has no place in Q15 */
+    quaternion_q15(quaternion, pose->pose.quaternion_q30);
+    for (int i = 0; i < 4; i++)
         if (!can_field_fits_signed(SET_QW, quaternion[i]))
             return false;
-    }
     const uint64_t time = (pose->capture_time_us + TIME_SET_US / 2) / TIME_SET_US;
 
     const uint32_t id = CAN_ID_POSE_SET + 4 * (uint32_t)pose->viewer;

@@ -61,7 +61,8 @@ typedef struct {
  * Pose -> three classic frames: A, B, C. They share the pose's counter.
  *
  * Positions are rounded to 0.01 mm and must lie within +-83.886 m; the quaternion's components are rounded to 1/32768
- * and must lie within [-1, 1]; +1 becomes 32767/32768. The capture time is rounded to 100 us.
+ * and must lie within [-1.01, 1.01]; +1 becomes 32767/32768, more makes all four 1 % smaller. The capture time is
+ * rounded to 100 us.
  *
  * @param[out] part  Three frames.
  * @return false when a value does not fit: position, quaternion, viewer, counter or quality.

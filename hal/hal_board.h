@@ -22,6 +22,7 @@ typedef struct {
     hal_gpio_t *gpio;
     hal_time_t *clock;
     hal_watchdog_t *watchdog;
+    void *own; /**< what the HAL keeps behind its devices, or NULL */
 } hal_board_t;
 
 /** What a board is made of: one constant of this type in board/NAME/board.c. Names are the HAL's own. */

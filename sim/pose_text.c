@@ -32,19 +32,6 @@ static bool is_nearly_unit(const int64_t component[4])
     return sum >= shortest * shortest && sum <= longest * longest;
 }
 
-/** In integer arithmetic that is the same on every machine. */
-static void normalise(int32_t quaternion_q30[4], const int64_t component[4])
-{
-    real_t sum = real_from_int(0, 0);
-    for (int i = 0; i < 4; i++) {
-        const real_t c = real_from_int(component[i], 0);
-        sum = real_add(sum, real_mul(c, c));
-    }
-    const real_t norm = real_sqrt(sum);
-    for (int i = 0; i < 4; i++)
-        quaternion_q30[i] = (int32_t)real_to_fixed(real_div(real_from_int(component[i], 0), norm), 30, INT32_MAX);
-}
-
 bool pose_from_fields(const char *const field[POSE_TEXT_FIELDS], pose_t *pose, char error[POSE_TEXT_MESSAGE_LENGTH])
 {
     int64_t number[POSE_TEXT_FIELDS];
@@ -67,7 +54,10 @@ bool pose_from_fields(const char *const field[POSE_TEXT_FIELDS], pose_t *pose, c
     }
     for (int i = 0; i < 3; i++)
         pose->eye_nm[i] = number[i];
-    normalise(pose->quaternion_q30, &number[3]);
+    const real_t unit = real_from_int(INT64_C(100000000000000000), 0);
+    for (int i = 0; i < 4; i++)
+        pose->quaternion_q30[i] =
+            (int32_t)real_to_fixed(real_div(real_from_int(number[3 + i], 0), unit), 30, INT32_MAX);
     return true;
 }
 

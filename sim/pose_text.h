@@ -13,8 +13,8 @@ enum { POSE_TEXT_FIELDS = 7, POSE_TEXT_MESSAGE_LENGTH = 256 };
 extern const char *const pose_text_field_name[POSE_TEXT_FIELDS];
 
 /**
- * Seven numbers -> pose. Positions are rounded to 1 nm, six decimals of a millimetre; the quaternion is normalised and
- * its components rounded to Q30.
+ * Seven numbers -> pose. Positions are rounded to 1 nm, six decimals of a millimetre, the quaternion's components
+ * to Q30. It keeps its length: homography_from_pose() divides by it.
  *
  * @param      field  Decimal numbers without spaces, in the order of pose_text_field_name; exponents are allowed.
  * @param[out] pose   Written only when true is returned.

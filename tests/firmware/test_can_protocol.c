@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests of the message encoders and decoders: round trips, rounding, ranges.
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -107,6 +108,20 @@ static void test_one_saturates_in_the_set_and_fits_the_fd_frame(void **state)
     assert_int_equal(got.pose.quaternion_q30[0], 1 << 30);
 }
 
+/* 1 % too long is legal; the set has no room for it, but the turn must be the same and the length still legal. */
+static void test_a_long_quaternion_keeps_its_turn_in_the_set(void **state)
+{
+    (void)state;
+    const can_pose_t sent = {.pose.quaternion_q30 = {1084000000, 0, 60000000, 0}, .quality = CAN_POSE_TRACKED};
+    can_pose_t got;
+    hal_can_frame_t part[CAN_POSE_PARTS];
+    assert_true(can_pose_set_encode(part, &sent));
+    assert_int_equal(can_pose_set_decode(&got, part, 0), CAN_CHECK_OK);
+    const double ratio = (double)got.pose.quaternion_q30[2] / got.pose.quaternion_q30[0];
+    assert_true(fabs(ratio - 60000000.0 / 1084000000.0) < 2.0 / 32768);
+    assert_true(hypot(got.pose.quaternion_q30[0], got.pose.quaternion_q30[2]) > 0.99 * 0x1p30);
+}
+
 static void test_values_that_do_not_fit_are_refused(void **state)
 {
     (void)state;
@@ -122,8 +137,8 @@ static void test_values_that_do_not_fit_are_refused(void **state)
     bad[0].pose.eye_nm[0] = INT64_C(83886075000);
     bad[1].pose.eye_nm[1] = -INT64_C(83886085000);
     bad[2].pose.eye_nm[2] = INT64_MAX / 4;
-    bad[3].pose.quaternion_q30[0] = (1 << 30) + (1 << 14) + (1 << 15);
-    bad[4].pose.quaternion_q30[3] = -(1 << 30) - (1 << 15);
+    bad[3].pose.quaternion_q30[0] = (1 << 30) + (1 << 24);
+    bad[4].pose.quaternion_q30[3] = -(1 << 30) - (1 << 24);
     bad[5].counter = 15;
     bad[6].viewer = CAN_VIEWERS;
     bad[7].quality = (can_pose_quality_t)3;
@@ -216,6 +231,7 @@ int main(void)
         cmocka_unit_test(test_random_fd_poses_come_back_within_the_quantum),
         cmocka_unit_test(test_rounding_is_to_nearest_on_both_sides_of_zero),
         cmocka_unit_test(test_one_saturates_in_the_set_and_fits_the_fd_frame),
+        cmocka_unit_test(test_a_long_quaternion_keeps_its_turn_in_the_set),
         cmocka_unit_test(test_values_that_do_not_fit_are_refused),
         cmocka_unit_test(test_heartbeat_comes_back),
         cmocka_unit_test(test_status_comes_back_saturated),

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: Apache-2.0
+# wallwarp: `make help` lists the targets. Everything built lands in build/.
+
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+.SUFFIXES:
+
+# What a variant build changes: make BUILD=build/clang-O0 CC=clang OPT=-O0
+CC    := gcc
+OPT   := -O3
+BUILD := build/host
+V     :=
+Q     := $(if $(V),,@)
+
+CFLAGS := -std=c11 $(OPT) -g -Wall -Wextra -Werror -Wpedantic -Wshadow -Wconversion -Wsign-conversion \
+          -Wstrict-prototypes -Wmissing-prototypes -Wold-style-definition -Wcast-align -Wcast-qual -Wwrite-strings \
+          -Wpointer-arith -Wvla -Wformat=2 -Wundef -Wswitch-enum -Wdouble-promotion -Wnull-dereference \
+          -fno-common -fstrict-aliasing
+CPPFLAGS := -I. -MMD -MP -D_GNU_SOURCE
+LDLIBS   := -lcyaml -lyaml -lpng -lz -lm -lpthread
+
+PROGRAMS := wallwarp wallwarp-sim wallwarp-eval wallwarp-pose
+MAINS    := firmware/main.c sim/wallwarp_sim.c sim/wallwarp_eval.c sim/wallwarp_pose.c
+
+WARP_C     := $(wildcard warp_fixed/*.c)
+FIRMWARE_C := $(filter-out $(MAINS),$(wildcard firmware/*.c))
+SIM_C      := $(filter-out $(MAINS),$(wildcard sim/*.c))
+TESTS_C    := $(wildcard tests/*/test_*.c)
+
+objects = $(patsubst %,$(BUILD)/obj/%.o,$(1))
+TESTS   := $(patsubst tests/%.c,$(BUILD)/tests/%,$(TESTS_C))
+SUPPORT_C := $(wildcard tests/support/*.c)
+# Programs that the scripts among the tests run.
+HELPERS := $(BUILD)/tests/sim/serve_bus $(BUILD)/tests/firmware/print_frames
+
+.PHONY: all programs
+all: setup-demo ## Build the firmware and the tools for this machine into build/host
+	$(Q)$(MAKE) --no-print-directory programs
+programs: $(PROGRAMS:%=$(BUILD)/%)
+
+# Install what is missing, once: see board/setup.sh.
+.PHONY: setup-demo setup-test
+setup-demo setup-test:
+	$(Q)board/setup.sh $(@:setup-%=%)
+
+.PHONY: demo
+demo: setup-demo ## Run a room of three walls and a floor, and write the page build/demo/index.html
+	$(Q)$(MAKE) --no-print-directory programs
+	$(Q)$(BUILD)/wallwarp-sim run sim/demo/room.yaml --video sim/demo/studio_960x540.png --poses sim/demo/walk.csv \
+	    --original tests/images/studio_1920x1080.png --out build/demo
+
+$(BUILD)/obj/%.c.o: %.c
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  CC    $<")
+	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
+
+$(BUILD)/obj/sim/page.S.o: sim/page.html sim/page.js
+$(BUILD)/obj/%.S.o: %.S
+	@mkdir -p $(@D)
+	$(Q)$(CC) -I. -c $< -o $@
+
+define archive
+$(BUILD)/lib$(1).a: $(call objects,$(2))
+	$(if $(V),,@echo "  AR    $$@")
+	$(Q)rm -f $$@ && $$(AR) rcs $$@ $$^
+endef
+$(eval $(call archive,warp,$(WARP_C)))
+$(eval $(call archive,firmware,$(FIRMWARE_C)))
+$(eval $(call archive,sim,$(SIM_C) $(wildcard sim/*.S)))
+$(eval $(call archive,support,$(SUPPORT_C)))
+
+LIBS := $(BUILD)/libsim.a $(BUILD)/libfirmware.a $(BUILD)/libwarp.a
+
+define link
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  LINK  $@")
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %support.a,$^) $(LIBS) $(LDLIBS) $(1)
+endef
+
+$(BUILD)/wallwarp: $(call objects,firmware/main.c board/host/board.c) $(LIBS)
+	$(call link)
+$(BUILD)/wallwarp-%: $(BUILD)/obj/sim/wallwarp_%.c.o $(LIBS)
+	$(call link)
+# Archives are searched in order, and a test's own hal_can_*() comes before the simulator's.
+$(BUILD)/tests/%: $(BUILD)/obj/tests/%.c.o $(BUILD)/libsupport.a $(LIBS)
+	$(call link,-lcmocka)
+
+# --- tests -----------------------------------------------------------------------------------------------------------
+
+# The same bytes from other compilers, optimisations and CPUs: each variant builds warp_fixed and golden_hashes anew.
+GOLDEN          := $(BUILD)/golden_hashes
+GOLDEN_VARIANTS := gcc-O0 gcc-O3 clang-O0 clang-O3 aarch64-linux-gnu-gcc-O0 aarch64-linux-gnu-gcc-O3
+$(GOLDEN): $(call objects,tests/golden/golden_hashes.c) $(BUILD)/libwarp.a
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^
+.PHONY: golden $(GOLDEN_VARIANTS:%=golden-%)
+golden: $(GOLDEN_VARIANTS:%=golden-%)
+$(GOLDEN_VARIANTS:%=golden-%): golden-%:
+	$(Q)variant=$* && $(MAKE) --no-print-directory BUILD=build/variants/$* CC=$${variant%-O?} OPT=-$${variant##*-} \
+	    LDFLAGS=-static build/variants/$*/golden_hashes
+
+# Commands of the test run, one word list each.
+golden_check = tests/golden/check.sh $(if $(findstring aarch64,$(1)),qemu-aarch64 )build/variants/$(1)/golden_hashes
+SCRIPTS      := $(wildcard tests/*/test_*.sh)
+RUN_TESTS     = $(foreach t,$(TESTS),'$(t)') $(foreach s,$(SCRIPTS),'$(s) $(BUILD)') \
+                $(foreach v,$(GOLDEN_VARIANTS),'$(call golden_check,$(v))')
+
+.PHONY: test run-tests
+test: setup-test ## Run every test; the last line says how many passed and failed
+	$(Q)$(MAKE) --no-print-directory programs
+	$(Q)$(MAKE) --no-print-directory golden run-tests
+run-tests: programs $(TESTS) $(HELPERS)
+	$(Q)tests/run.sh build/test-logs $(RUN_TESTS)
+
+.PHONY: sanitize
+sanitize: setup-test ## Run the unit tests again with the address and undefined-behaviour sanitizers
+	$(Q)$(MAKE) --no-print-directory BUILD=build/sanitize OPT='-O1 -fsanitize=address,undefined \
+	    -fno-sanitize-recover=all -fno-omit-frame-pointer' \
+	    TESTS_C='$(filter-out %/test_no_heap.c,$(TESTS_C))' run-unit-tests
+.PHONY: run-unit-tests
+run-unit-tests: $(TESTS)
+	$(Q)tests/run.sh $(BUILD)/test-logs $(foreach t,$(TESTS),'$(t)')
+
+.PHONY: freestanding
+freestanding: setup-test ## Compile warp_fixed for aarch64 without any library, and look for float and foreign symbols
+	$(Q)tests/warp_fixed/test_freestanding.sh $(BUILD)
+
+.PHONY: size
+size: setup-demo ## Print the sizes of code, static memory, and the worst stack of every function
+	$(Q)$(MAKE) --no-print-directory BUILD=build/size OPT='-O3 -fstack-usage' build/size/wallwarp
+	$(Q)board/size.sh build/size
+
+.PHONY: clean
+clean: ## Delete build/
+	rm -rf build
+
+.PHONY: help
+help: ## List the targets
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+-include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)

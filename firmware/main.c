@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// The firmware: read the room, open the board, then one projector_step() per vertical blank.
+#include <argp.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "firmware/projector.h"
+#include "firmware/room.h"
+#include "hal/hal_board.h"
+
+enum { FAILED = 1, BAD_USAGE = 2, KEY_CAN = 256, KEY_CAMERA, KEY_DISPLAY };
+
+typedef struct {
+    const char *room;
+    int32_t node; /**< 0: not given */
+    board_table_t devices;
+} options_t;
+
+static const struct argp_option option_table[] = {
+    {"node", 'n', "N", 0, "Node number of this board in the room file; needed", 0},
+    {"can", KEY_CAN, "NAME", 0, "Bus, in place of the board's own", 0},
+    {"camera", KEY_CAMERA, "NAME", 0, "Video source, in place of the board's own", 0},
+    {"display", KEY_DISPLAY, "NAME", 0, "Display, in place of the board's own", 0},
+    {0},
+};
+
+static volatile sig_atomic_t stop_requested;
+
+static void request_stop(int signal_number)
+{
+    (void)signal_number;
+    stop_requested = 1;
+}
+
+static error_t read_option(int key, char *text, struct argp_state *state)
+{
+    options_t *options = state->input;
+    char *end;
+    switch (key) {
+    case 'n': {
+        const long node = strtol(text, &end, 10);
+        if (end == text || *end != '\0' || node < 1 || node > ROOM_MAX_NODE)
+            argp_error(state, "--node: found \"%s\", expected 1 to %d", text, ROOM_MAX_NODE);
+        options->node = (int32_t)node;
+        return 0;
+    }
+    case KEY_CAN:
+        options->devices.can = text;
+        return 0;
+    case KEY_CAMERA:
+        options->devices.camera = text;
+        return 0;
+    case KEY_DISPLAY:
+        options->devices.display = text;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (state->arg_num > 0)
+            argp_error(state, "found \"%s\", expected one room file", text);
+        options->room = text;
+        return 0;
+    case ARGP_KEY_END:
+        if (options->room == NULL || options->node == 0)
+            argp_error(state, "expected ROOM and --node N");
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static void print_warning(void *context, const char *line)
+{
+    (void)context;
+    fprintf(stderr, "warning: %s\n", line);
+}
+
+static bool open_board(hal_board_t *devices, const options_t *options, const room_t *room, const room_board_t *board)
+{
+    const hal_board_needs_t needs = {
+        .picture_width = room->camera.width,
+        .picture_height = room->camera.height,
+        .panel_width = board->wall.panel_width,
+        .panel_height = board->wall.panel_height,
+        .bitrate = room->bitrate,
+        .data_bitrate = room->data_bitrate,
+        .fd = room->fd,
+    };
+    char error[256];
+    fprintf(stderr, "wallwarp: board \"%s\" on %s: can %s, camera %s, display %s\n", board->name, options->devices.name,
+            options->devices.can, options->devices.camera, options->devices.display);
+    if (hal_board_open(devices, &options->devices, &needs, error) == HAL_OK)
+        return true;
+    fprintf(stderr, "wallwarp: %s\n", error);
+    return false;
+}
+
+static void run(const room_t *room, const room_board_t *board, const hal_board_t *devices)
+{
+    static projector_t projector;
+    projector_init(&projector, room, board, devices, &warp_kernels_scalar);
+    while (!stop_requested) {
+        projector_step(&projector);
+        if (hal_display_wait_vblank(devices->display) != HAL_OK)
+            continue; /* no display: the next step counts it, and the call has waited */
+    }
+}
+
+int main(int argc, char **argv)
+{
+    static const struct argp argp = {
+        .options = option_table,
+        .parser = read_option,
+        .args_doc = "ROOM --node N",
+        .doc = "The projector's firmware: shows on one wall of ROOM what the tracked viewer must see."
+               "\vOn the host the bus is a port of 127.0.0.1 (socketcand protocol, channel can0), the camera a "
+               "picture or video file or \"pattern\", the display a folder for PNGs or \"none\". Ends on SIGINT or "
+               "SIGTERM. Exit status: 0 done, 1 failed, 2 bad usage.",
+    };
+    static room_t room;
+    options_t options = {.devices = board_table};
+    char error[ROOM_MESSAGE_LENGTH];
+    hal_board_t devices;
+    argp_err_exit_status = BAD_USAGE;
+    if (argp_parse(&argp, argc, argv, 0, NULL, &options) != 0)
+        return BAD_USAGE;
+    if (!room_load(&room, options.room, print_warning, NULL, error)) {
+        fprintf(stderr, "wallwarp: %s\n", error);
+        return FAILED;
+    }
+    const room_board_t *board = room_board_with_node(&room, options.node);
+    if (board == NULL) {
+        fprintf(stderr, "wallwarp: %s: no board has node %d\n", options.room, options.node);
+        return FAILED;
+    }
+    if (!open_board(&devices, &options, &room, board))
+        return FAILED;
+    signal(SIGINT, request_stop);
+    signal(SIGTERM, request_stop);
+    run(&room, board, &devices);
+    hal_board_close(&devices);
+    return 0;
+}

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// One board on the bench: hal_board_open() for a firmware that runs by itself on this machine, in real time.
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "hal/hal_board.h"
+#include "sim/png_file.h"
+#include "sim/sim_bus.h"
+#include "sim/sim_camera.h"
+#include "sim/sim_clock.h"
+#include "sim/sim_display.h"
+#include "sim/sim_gpio.h"
+#include "sim/sim_watchdog.h"
+#include "sim/socketcand_server.h"
+
+enum { REFRESH_HZ = 60, WATCHDOG_US = 2000000, PICTURE_PERIOD_US = 1000000, LAST_PORT = 65535, BOARD_ERROR = 256 };
+
+typedef struct {
+    hal_board_t devices;
+    sim_bus_t *bus;
+    socketcand_server_t *server;
+    video_t *video;
+    const char *folder; /**< for pictures; NULL for none */
+    int64_t picture_due_us;
+    bool camera_failed; /**< and that has been told */
+} bench_t;
+
+static void write_picture(bench_t *b, int64_t now_us)
+{
+    const image_t *shown = sim_display_shown(b->devices.display);
+    if (b->folder == NULL || shown == NULL || now_us < b->picture_due_us)
+        return;
+    char path[4096];
+    char error[FILE_ERROR_LENGTH];
+    b->picture_due_us = now_us + PICTURE_PERIOD_US;
+    const int length = snprintf(path, sizeof path, "%s/display.png", b->folder);
+    if (length < 0 || (size_t)length >= sizeof path)
+        fprintf(stderr, "wallwarp: display: the folder's name is too long\n");
+    else if (!png_file_write(path, shown, error))
+        fprintf(stderr, "wallwarp: display: %s\n", error);
+}
+
+/* Between two steps of the firmware: let the world around the board go on. */
+static void move_world(void *context)
+{
+    bench_t *b = context;
+    const int64_t now_us = hal_time_now_us(b->devices.clock);
+    char error[FILE_ERROR_LENGTH];
+    socketcand_server_poll(b->server);
+    sim_bus_advance(b->bus, now_us);
+    socketcand_server_poll(b->server);
+    const bool camera_ok = sim_camera_advance(b->devices.camera, now_us, error);
+    if (!camera_ok && !b->camera_failed)
+        fprintf(stderr, "wallwarp: camera: %s\n", error);
+    b->camera_failed = !camera_ok;
+    write_picture(b, now_us);
+}
+
+static bool open_bus(bench_t *b, const board_table_t *table, const hal_board_needs_t *needs, char error[BOARD_ERROR])
+{
+    char *end;
+    const long port = strtol(table->can, &end, 10);
+    if (end == table->can || *end != '\0' || port < 0 || port > LAST_PORT)
+        return file_error(error, "can", "found \"%s\", expected a port of 127.0.0.1, 0 for any free one", table->can);
+    const sim_bus_config_t config = {
+        .bitrate = needs->bitrate,
+        .data_bitrate = needs->data_bitrate,
+        .fd = needs->fd,
+        .start_us = hal_time_now_us(b->devices.clock),
+    };
+    b->bus = sim_bus_create(&config);
+    if (b->bus == NULL)
+        return file_error(error, "can", "%d and %d bit/s are out of range, or out of memory", needs->bitrate,
+                          needs->data_bitrate);
+    b->devices.can = sim_bus_attach(b->bus);
+    b->server = socketcand_server_open((int)port, b->bus, error);
+    if (b->devices.can == NULL || b->server == NULL)
+        return false;
+    fprintf(stderr, "can: bus on 127.0.0.1:%d (socketcand, channel can0)\n", socketcand_server_port(b->server));
+    return true;
+}
+
+static bool open_camera(bench_t *b, const board_table_t *table, const hal_board_needs_t *needs, char error[BOARD_ERROR])
+{
+    b->video = video_open(table->camera, needs->picture_width, needs->picture_height, error);
+    if (b->video == NULL)
+        return false;
+    const video_info_t *video = video_info(b->video);
+    const sim_camera_settings_t settings = {
+        .video = b->video,
+        .width = needs->picture_width,
+        .height = needs->picture_height,
+        .rate = {hal_time_now_us(b->devices.clock), video->rate_frames, video->rate_seconds},
+    };
+    b->devices.camera = sim_camera_create(&settings, error);
+    if (b->devices.camera == NULL)
+        return false;
+    fprintf(stderr, "camera: %s, %dx%d, %d frames\n", table->camera, needs->picture_width, needs->picture_height,
+            video->frame_count);
+    return true;
+}
+
+static bool open_display(bench_t *b, const board_table_t *table, const hal_board_needs_t *needs,
+                         char error[BOARD_ERROR])
+{
+    b->folder = strcmp(table->display, "none") == 0 ? NULL : table->display;
+    if (b->folder != NULL && mkdir(b->folder, 0777) != 0 && errno != EEXIST)
+        return file_error(error, b->folder, "can't make the folder for pictures: %s", strerror(errno));
+    const sim_display_settings_t settings = {
+        .width = needs->panel_width,
+        .height = needs->panel_height,
+        .clock = b->devices.clock,
+        .blanks = {hal_time_now_us(b->devices.clock), REFRESH_HZ, 1},
+        .while_waiting = move_world,
+        .context = b,
+    };
+    b->devices.display = sim_display_create(&settings, error);
+    if (b->devices.display == NULL)
+        return false;
+    fprintf(stderr, "display: %dx%d at %d Hz, %s%s\n", needs->panel_width, needs->panel_height, REFRESH_HZ,
+            b->folder == NULL ? "no files" : "a PNG each second: ", b->folder == NULL ? "" : b->folder);
+    return true;
+}
+
+hal_status_t hal_board_open(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                            char error[BOARD_ERROR])
+{
+    const sim_clock_settings_t clock = {.real = true};
+    bench_t *b = calloc(1, sizeof *b);
+    if (b == NULL) {
+        file_error(error, "bench", "out of memory");
+        return HAL_IO;
+    }
+    b->devices.own = b;
+    b->devices.clock = sim_clock_create(&clock, error);
+    bool ok = b->devices.clock != NULL && open_bus(b, table, needs, error) && open_camera(b, table, needs, error) &&
+              open_display(b, table, needs, error);
+    b->devices.gpio = ok ? sim_gpio_create(b->devices.clock, error) : NULL;
+    b->devices.watchdog = b->devices.gpio == NULL ? NULL : sim_watchdog_create(b->devices.clock, WATCHDOG_US, error);
+    if (b->devices.watchdog == NULL) {
+        hal_board_close(&b->devices);
+        return HAL_IO;
+    }
+    *board = b->devices;
+    move_world(b); /* the camera's first picture is there for the first step */
+    return HAL_OK;
+}
+
+void hal_board_close(hal_board_t *board)
+{
+    bench_t *b = board->own;
+    sim_watchdog_destroy(board->watchdog);
+    sim_gpio_destroy(board->gpio);
+    sim_display_destroy(board->display);
+    sim_camera_destroy(board->camera);
+    video_close(b->video);
+    socketcand_server_close(b->server);
+    sim_bus_destroy(b->bus);
+    sim_clock_destroy(board->clock);
+    free(b);
+}

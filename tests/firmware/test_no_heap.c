@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests that no step of the loop touches the heap, whatever the method, and whatever goes wrong.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "sim/sim_camera.h"
+#include "sim/sim_display.h"
+#include "tests/support/room_bench.h"
+
+/* The allocator of this program is the C library's behind a trap. So it cannot be built with a sanitizer, which brings
+ * an allocator of its own. */
+/* Volatile: a compiler knows that its own malloc() reads no variable of the program. */
+static volatile bool trap_set;
+static volatile int trapped_calls;
+
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *block, size_t size);
+void *__libc_memalign(size_t alignment, size_t size);
+void __libc_free(void *block);
+
+void *malloc(size_t size)
+{
+    trapped_calls += trap_set;
+    return __libc_malloc(size);
+}
+
+void *calloc(size_t count, size_t size)
+{
+    trapped_calls += trap_set;
+    return __libc_calloc(count, size);
+}
+
+void *realloc(void *block, size_t size)
+{
+    trapped_calls += trap_set;
+    return __libc_realloc(block, size);
+}
+
+void *aligned_alloc(size_t alignment, size_t size)
+{
+    trapped_calls += trap_set;
+    return __libc_memalign(alignment, size);
+}
+
+void free(void *block)
+{
+    trapped_calls += trap_set;
+    __libc_free(block);
+}
+
+static room_bench_t bench;
+static projector_t projector;
+
+static void step(void)
+{
+    room_bench_advance(&bench);
+    trap_set = true;
+    projector_step(&projector);
+    trap_set = false;
+    bench.step++;
+}
+
+static void run(int milliseconds)
+{
+    for (int i = 0; i < milliseconds * ROOM_BENCH_HZ / 1000; i++)
+        step();
+}
+
+static void open_projector(const warp_method_t *method, bool fd)
+{
+    room_bench_open(&bench, fd);
+    bench.tracking = true;
+    room_board_t board = bench.room.board[0];
+    board.method = method;
+    projector_init(&projector, &bench.room, &board, sim_world_devices(bench.world, 0), &warp_kernels_scalar);
+    trapped_calls = 0;
+}
+
+static void test_the_trap_works(void **state)
+{
+    (void)state;
+    trapped_calls = 0;
+    trap_set = true;
+    void *volatile block = malloc(1);
+    free(block);
+    trap_set = false;
+    assert_int_equal(trapped_calls, 2);
+}
+
+static void test_no_method_allocates(void **state)
+{
+    (void)state;
+    for (int i = 0; i < WARP_METHODS; i++) {
+        open_projector(&warp_methods[i], i % 2 == 0);
+        run(200);
+        const bool drawn = projector.report.corrected;
+        const int calls = trapped_calls;
+        room_bench_close(&bench);
+        if (!drawn || calls != 0)
+            printf("method %s\n", warp_methods[i].name);
+        assert_true(drawn);
+        assert_int_equal(calls, 0);
+    }
+}
+
+static void test_no_fault_allocates(void **state)
+{
+    (void)state;
+    open_projector(warp_method_default(), true);
+    const hal_board_t *devices = sim_world_devices(bench.world, 0);
+    sim_bus_t *bus = sim_world_bus(bench.world);
+    const hal_can_frame_t flood = {.id = 0, .length = 8};
+    run(200);
+    sim_bus_fail(bus, SIM_BUS_CORRUPT, (sim_bus_fail_t){.next = 20});
+    run(400);
+    sim_bus_fail_bus_off(devices->can);
+    run(400);
+    assert_int_equal(sim_bus_fail_flood(bus, &flood), HAL_OK);
+    run(1500);
+    assert_int_equal(projector.report.state, CAN_BOARD_SAFE);
+    assert_int_equal(sim_bus_fail_flood(bus, NULL), HAL_OK);
+    sim_bus_fail_driver(devices->can, true);
+    run(100);
+    sim_bus_fail_driver(devices->can, false);
+    sim_display_faults(devices->display)->refuse_next = 3;
+    run(100);
+    sim_camera_faults(devices->camera)->unplugged_until_us = INT64_MAX;
+    run(1200);
+    assert_int_equal(projector.report.state, CAN_BOARD_FAULT);
+    sim_camera_faults(devices->camera)->unplugged_until_us = 0;
+    run(600);
+    assert_int_equal(projector.report.state, CAN_BOARD_RUNNING);
+    const int calls = trapped_calls;
+    room_bench_close(&bench);
+    assert_int_equal(calls, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_the_trap_works),
+        cmocka_unit_test(test_no_method_allocates),
+        cmocka_unit_test(test_no_fault_allocates),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,41 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# Run every command of the README, block by block, as a user would paste it. usage: test_readme.sh BUILD
+#
+# Not the first block: it is the test run itself and the demo, which call this script or are called beside it.
+set -u
+[ "$1" = build/host ] || { echo "the README's commands use build/host, not $1"; exit 1; }
+passed=0 failed=0 number=0
+block=
+while IFS= read -r line; do
+    case $line in
+    '```sh') block=begin text= ;;
+    '```')
+        if [ -n "$block" ] && [[ $text != *'make test'* ]]; then
+            number=$((number + 1))
+            if bash -e -c "$text" >build/readme.log 2>&1; then
+                passed=$((passed + 1))
+                echo "ok      $(head -n 1 <<<"$text")"
+            else
+                failed=$((failed + 1))
+                echo "FAILED  $text"
+                tail -n 20 build/readme.log
+            fi
+        fi
+        block=
+        ;;
+    *) [ -z "$block" ] || text+=$line$'\n' ;;
+    esac
+done <README.md
+
+# Every file that it links to is there.
+while read -r link; do
+    if [ -e "$link" ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED  link to $link"
+    fi
+done < <(grep -o '](\([^)#]*\))' README.md | tr -d '()]' | grep -v '^http' | sort -u)
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
