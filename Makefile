@@ -3,6 +3,7 @@
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
+.SECONDARY:
 .SUFFIXES:
 
 # What a variant build changes: make BUILD=build/clang-O0 CC=clang OPT=-O0

@@ -296,3 +296,12 @@ void oracle_random_case(oracle_case_t *out, rng_t *rng)
         forward[k] /= sqrt(length);
     look_along(out->pose.quaternion_q30, forward, rng);
 }
+
+bool oracle_scene(oracle_scene_t *scene)
+{
+    wall_t wall;
+    oracle_wall(&scene->wall, &scene->c.corners);
+    oracle_homography(&scene->exact, &scene->c.camera, &scene->wall, &scene->c.pose);
+    return wall_from_corners(&wall, &scene->c.corners) == WALL_OK &&
+           homography_from_pose(&scene->homography, &scene->c.camera, &wall, &scene->c.pose);
+}

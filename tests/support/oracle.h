@@ -26,6 +26,17 @@ typedef struct {
     pose_t pose;
 } oracle_case_t;
 
+/** A case with its geometry, once in fixed point and once as the oracle has it. */
+typedef struct {
+    oracle_case_t c;
+    homography_t homography;
+    oracle_wall_t wall;
+    oracle_homography_t exact;
+} oracle_scene_t;
+
+/** Work out the geometry of scene->c. @return false when the fixed-point side refuses wall or pose. */
+bool oracle_scene(oracle_scene_t *scene);
+
 /** Four or three corners; the plane by inverse iteration, the homography by Gaussian elimination. */
 void oracle_wall(oracle_wall_t *wall, const wall_corners_t *measured);
 

@@ -11,24 +11,8 @@
 
 #include "tests/support/oracle.h"
 
-typedef struct {
-    oracle_case_t c;
-    homography_t homography;
-    oracle_homography_t exact;
-} scene_t;
-
-static void make_scene(scene_t *scene)
-{
-    wall_t wall;
-    oracle_wall_t exact_wall;
-    assert_int_equal(wall_from_corners(&wall, &scene->c.corners), WALL_OK);
-    assert_true(homography_from_pose(&scene->homography, &scene->c.camera, &wall, &scene->c.pose));
-    oracle_wall(&exact_wall, &scene->c.corners);
-    oracle_homography(&scene->exact, &scene->c.camera, &exact_wall, &scene->c.pose);
-}
-
 /* A 4 m x 2.25 m wall seen from 2.5 m, turned about the vertical axis. */
-static void turned_scene(scene_t *scene, double degrees, int32_t panel_width, int32_t picture_width)
+static void turned_scene(oracle_scene_t *scene, double degrees, int32_t panel_width, int32_t picture_width)
 {
     const int32_t panel_height = panel_width * 9 / 16, picture_height = picture_width * 9 / 16;
     const double a = degrees / 57.29577951308232;
@@ -46,11 +30,11 @@ static void turned_scene(scene_t *scene, double degrees, int32_t panel_width, in
                    {picture_width * 500000LL, picture_height * 500000LL}},
         .pose = {{llround(2.5e9 * sin(a)), 0, llround(-2.5e9 * cos(a))},
                  {(int32_t)lround(cos(a / 2) * 1073741824.0), 0, (int32_t)lround(-sin(a / 2) * 1073741824.0), 0}}};
-    make_scene(scene);
+    assert_true(oracle_scene(scene));
 }
 
 /* Largest distance of neighbours' picture points; `in` counts only pairs that both land in the picture. */
-static void exhaustive_step(const scene_t *scene, double *in, double *all)
+static void exhaustive_step(const oracle_scene_t *scene, double *in, double *all)
 {
     *in = *all = 0;
     const camera_t *camera = &scene->c.camera;
@@ -83,7 +67,7 @@ static void closed_form_is_just_above_the_exhaustive_step(void **state)
     const int32_t panel[2] = {1920, 480};
     for (int s = 0; s < 2; s++) {
         for (int degrees = 0; degrees <= 60; degrees += 15) {
-            scene_t scene;
+            oracle_scene_t scene;
             double in, all;
             turned_scene(&scene, degrees, panel[s], 480);
             exhaustive_step(&scene, &in, &all);
@@ -100,11 +84,11 @@ static void closed_form_is_just_above_the_exhaustive_step(void **state)
 static void a_wall_out_of_view_has_no_step(void **state)
 {
     (void)state;
-    scene_t scene;
+    oracle_scene_t scene;
     turned_scene(&scene, 0, 480, 480);
     scene.c.pose.quaternion_q30[0] = 0; /* half a turn: the wall is behind */
     scene.c.pose.quaternion_q30[2] = 1 << 30;
-    make_scene(&scene);
+    assert_true(oracle_scene(&scene));
     const footprint_step_t step = footprint_step(&scene.homography);
     assert_int_equal(step.in_q16, 0);
     assert_int_equal(step.all_q16, FOOTPRINT_MAX_STEP_Q16);
@@ -118,9 +102,9 @@ static void block_sides_are_the_jacobian_s_rows(void **state)
     long blocks = 0;
     for (uint64_t seed = 1; seed <= 300; seed++) {
         rng_t rng = {seed};
-        scene_t scene;
+        oracle_scene_t scene;
         oracle_random_case(&scene.c, &rng);
-        make_scene(&scene);
+        assert_true(oracle_scene(&scene));
         grid_from_homography(&grid, &scene.homography);
         const int32_t bands = (grid.panel_height + FOOTPRINT_BLOCK - 1) / FOOTPRINT_BLOCK;
         for (int32_t b = 0; b < bands; b += 7) {

@@ -21,21 +21,38 @@ typedef struct {
     double worst_px;
 } tally_t;
 
+/* The random scene of a seed, and its grid; rng goes on behind it. */
+static void random_scene(oracle_scene_t *scene, rng_t *rng, uint64_t seed)
+{
+    *rng = (rng_t){seed};
+    oracle_random_case(&scene->c, rng);
+    if (!oracle_scene(scene))
+        fail_msg("seed %lu: no homography", (unsigned long)seed);
+    grid_from_homography(&grid, &scene->homography);
+}
+
+static void random_pixel(int32_t ij[2], rng_t *rng)
+{
+    ij[0] = (int32_t)rng_int(rng, 0, grid.panel_width - 1);
+    ij[1] = (int32_t)rng_int(rng, 0, grid.panel_height - 1);
+}
+
 static bool near_edge(long double x, int32_t size)
 {
     return fabsl(x) < 1.0L / 256 || fabsl(x - size) < 1.0L / 256;
 }
 
-static void check_point(tally_t *tally, const oracle_case_t *c, const oracle_homography_t *h, int32_t i, int32_t j)
+static void check_point(tally_t *tally, const oracle_scene_t *scene, int32_t i, int32_t j)
 {
+    const camera_t *camera = &scene->c.camera;
     long double xy[2], depth;
-    oracle_point(h, i + 0.5L, j + 0.5L, xy, &depth);
-    if (fabsl(depth) < 0.001L || near_edge(xy[0], c->camera.width) || near_edge(xy[1], c->camera.height))
+    oracle_point(&scene->exact, i + 0.5L, j + 0.5L, xy, &depth);
+    if (fabsl(depth) < 0.001L || near_edge(xy[0], camera->width) || near_edge(xy[1], camera->height))
         return;
-    const bool inside = depth > 0 && xy[0] >= 0 && xy[0] <= c->camera.width && xy[1] >= 0 && xy[1] <= c->camera.height;
+    const bool inside = depth > 0 && xy[0] >= 0 && xy[0] <= camera->width && xy[1] >= 0 && xy[1] <= camera->height;
     int32_t x, y;
     const bool lit = grid_point(&grid, i, j, &x, &y);
-    const bool got = lit && x >= 0 && x <= c->camera.width << 18 && y >= 0 && y <= c->camera.height << 18;
+    const bool got = lit && x >= 0 && x <= camera->width << 18 && y >= 0 && y <= camera->height << 18;
     if (got != inside)
         fail_msg("seed %lu, pixel (%d, %d): inside is %d, expected %d at (%.6Lf, %.6Lf)", (unsigned long)tally->seed, i,
                  j, got, inside, xy[0], xy[1]);
@@ -57,25 +74,15 @@ static void random_cases_agree(void **state)
     enum { CASES = 12000, POINTS = 12 };
     tally_t tally = {0};
     for (uint64_t seed = 1; seed <= CASES; seed++) {
-        rng_t rng = {seed};
+        rng_t rng;
+        oracle_scene_t scene;
         tally.seed = seed;
-        oracle_case_t c;
-        oracle_random_case(&c, &rng);
-        wall_t wall;
-        homography_t homography;
-        if (wall_from_corners(&wall, &c.corners) != WALL_OK ||
-            !homography_from_pose(&homography, &c.camera, &wall, &c.pose))
-            fail_msg("seed %lu: no homography", (unsigned long)seed);
-        grid_from_homography(&grid, &homography);
-        oracle_wall_t exact_wall;
-        oracle_homography_t exact;
-        oracle_wall(&exact_wall, &c.corners);
-        oracle_homography(&exact, &c.camera, &exact_wall, &c.pose);
+        random_scene(&scene, &rng, seed);
         for (int n = 0; n < POINTS; n++) {
-            const int32_t i = (int32_t)rng_int(&rng, 0, c.corners.panel_width - 1);
-            const int32_t j = (int32_t)rng_int(&rng, 0, c.corners.panel_height - 1);
-            if (oracle_incidence_deg(&exact_wall, &c.pose, i + 0.5L, j + 0.5L) <= 85)
-                check_point(&tally, &c, &exact, i, j);
+            int32_t ij[2];
+            random_pixel(ij, &rng);
+            if (oracle_incidence_deg(&scene.wall, &scene.c.pose, ij[0] + 0.5L, ij[1] + 0.5L) <= 85)
+                check_point(&tally, &scene, ij[0], ij[1]);
         }
     }
     printf("%ld points of %d walls, %ld inside, %ld behind the viewer, worst error 1/%.0f px\n", tally.points, CASES,
@@ -89,14 +96,9 @@ static void a_point_is_its_blocks_point(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= 50; seed++) {
-        rng_t rng = {seed};
-        oracle_case_t c;
-        wall_t wall;
-        homography_t homography;
-        oracle_random_case(&c, &rng);
-        assert_int_equal(wall_from_corners(&wall, &c.corners), WALL_OK);
-        assert_true(homography_from_pose(&homography, &c.camera, &wall, &c.pose));
-        grid_from_homography(&grid, &homography);
+        rng_t rng;
+        oracle_scene_t scene;
+        random_scene(&scene, &rng, seed);
         for (int32_t j = 0; j < grid.panel_height; j += 97) {
             const grid_row_t *row = &grid.row[j];
             for (int32_t begin = row->begin; begin < row->end;) {
@@ -120,18 +122,17 @@ static void a_point_is_its_blocks_point(void **state)
 static void frontal_wall_maps_pixel_centres_exactly(void **state)
 {
     (void)state;
-    const wall_corners_t corners = {
-        .panel_width = 1920,
-        .panel_height = 1080,
-        .corner_um = {{-2000000, -1125000, 0}, {2000000, -1125000, 0}, {2000000, 1125000, 0}, {-2000000, 1125000, 0}},
-        .corner_known = {true, true, true, true}};
-    const camera_t camera = {1920, 1080, {1200000000, 1200000000}, {960000000, 540000000}};
-    const pose_t pose = {{0, 0, -2500000000}, {1 << 30, 0, 0, 0}};
-    wall_t wall;
-    homography_t homography;
-    assert_int_equal(wall_from_corners(&wall, &corners), WALL_OK);
-    assert_true(homography_from_pose(&homography, &camera, &wall, &pose));
-    grid_from_homography(&grid, &homography);
+    oracle_scene_t scene = {.c = {.corners = {.panel_width = 1920,
+                                              .panel_height = 1080,
+                                              .corner_um = {{-2000000, -1125000, 0},
+                                                            {2000000, -1125000, 0},
+                                                            {2000000, 1125000, 0},
+                                                            {-2000000, 1125000, 0}},
+                                              .corner_known = {true, true, true, true}},
+                                  .camera = {1920, 1080, {1200000000, 1200000000}, {960000000, 540000000}},
+                                  .pose = {{0, 0, -2500000000}, {1 << 30, 0, 0, 0}}}};
+    assert_true(oracle_scene(&scene));
+    grid_from_homography(&grid, &scene.homography);
     for (int32_t j = 0; j < 1080; j += 13) {
         for (int32_t i = 0; i < 1920; i += 7) {
             int32_t x, y;
@@ -140,7 +141,32 @@ static void frontal_wall_maps_pixel_centres_exactly(void **state)
             assert_int_equal(y, (j << 18) + (1 << 17));
         }
     }
-    assert_int_equal(homography_depth_um(&homography, 1, 1), 2500000);
+    assert_int_equal(homography_depth_um(&scene.homography, 1, 1), 2500000);
+}
+
+/*
+ * How far outside the picture a pixel's point is, in units of what its square reaches to either side. Negative depth,
+ * and the few pixels next to the plane of depth 0, where derivatives say nothing about the square, are told apart.
+ */
+typedef enum { BEHIND, BETWEEN, IN_FRONT } place_t;
+
+static place_t reaches_outside(const oracle_scene_t *scene, const int32_t ij[2], long double *reaches)
+{
+    const long double u = ij[0] + 0.5L, v = ij[1] + 0.5L;
+    const long double *w_row = scene->exact.row[2];
+    const long double w = w_row[0] * u + w_row[1] * v + w_row[2];
+    const int32_t size[2] = {scene->c.camera.width, scene->c.camera.height};
+    long double xy[2], depth;
+    oracle_point(&scene->exact, u, v, xy, &depth);
+    *reaches = 0;
+    for (int a = 0; a < 2; a++) {
+        const long double *row = scene->exact.row[a];
+        const long double reach = (fabsl(row[0] - xy[a] * w_row[0]) + fabsl(row[1] - xy[a] * w_row[1])) / w / 2;
+        *reaches = fmaxl(*reaches, fmaxl(fmaxl(-xy[a], xy[a] - size[a]), 0) / reach);
+    }
+    if (fabsl(w) < 8 * (fabsl(w_row[0]) + fabsl(w_row[1])))
+        return BETWEEN;
+    return depth > 0 ? IN_FRONT : BEHIND;
 }
 
 /* Lit: a superset of the pixels whose square can overlap the picture, larger by one pixel at most. */
@@ -149,42 +175,20 @@ static void lit_pixels_are_those_that_reach_the_picture(void **state)
     (void)state;
     long lit_count = 0;
     for (uint64_t seed = 1; seed <= 400; seed++) {
-        rng_t rng = {seed};
-        oracle_case_t c;
-        wall_t wall;
-        homography_t homography;
-        oracle_wall_t exact_wall;
-        oracle_homography_t h;
-        oracle_random_case(&c, &rng);
-        assert_int_equal(wall_from_corners(&wall, &c.corners), WALL_OK);
-        assert_true(homography_from_pose(&homography, &c.camera, &wall, &c.pose));
-        grid_from_homography(&grid, &homography);
-        oracle_wall(&exact_wall, &c.corners);
-        oracle_homography(&h, &c.camera, &exact_wall, &c.pose);
+        rng_t rng;
+        oracle_scene_t scene;
+        random_scene(&scene, &rng, seed);
         for (int n = 0; n < 2000; n++) {
-            const int32_t i = (int32_t)rng_int(&rng, 0, c.corners.panel_width - 1);
-            const int32_t j = (int32_t)rng_int(&rng, 0, c.corners.panel_height - 1);
-            int32_t x, y;
-            const bool lit = grid_point(&grid, i, j, &x, &y);
-            long double xy[2], depth, reach[2];
-            oracle_point(&h, i + 0.5L, j + 0.5L, xy, &depth);
-            const long double w = h.row[2][0] * (i + 0.5L) + h.row[2][1] * (j + 0.5L) + h.row[2][2];
-            long double beyond = 0; /* how far outside, in reaches of the pixel's square */
-            const int32_t size[2] = {c.camera.width, c.camera.height};
-            for (int a = 0; a < 2; a++) {
-                reach[a] =
-                    (fabsl(h.row[a][0] - xy[a] * h.row[2][0]) + fabsl(h.row[a][1] - xy[a] * h.row[2][1])) / w / 2;
-                const long double outside = fmaxl(fmaxl(-xy[a], xy[a] - size[a]), 0);
-                beyond = fmaxl(beyond, outside / reach[a]);
-            }
-            /* Within a few pixels of the plane of depth 0 the derivatives say nothing about the square. */
-            if (fabsl(w) < 8 * (fabsl(h.row[2][0]) + fabsl(h.row[2][1])))
-                continue;
-            const bool overlaps = depth > 0 && beyond <= 0.999L;
-            const bool far = depth < 0 || beyond > 3;
-            if ((overlaps && !lit) || (far && lit))
-                fail_msg("seed %lu, pixel (%d, %d): lit is %d, %.4Lf reaches outside at depth %.4Lf",
-                         (unsigned long)seed, i, j, lit, beyond, depth);
+            int32_t ij[2], x, y;
+            long double reaches;
+            random_pixel(ij, &rng);
+            const bool lit = grid_point(&grid, ij[0], ij[1], &x, &y);
+            const place_t place = reaches_outside(&scene, ij, &reaches);
+            const bool must = place == IN_FRONT && reaches <= 0.999L;
+            const bool must_not = place == BEHIND || (place == IN_FRONT && reaches > 3);
+            if ((must && !lit) || (must_not && lit))
+                fail_msg("seed %lu, pixel (%d, %d): lit is %d, %.4Lf reaches outside", (unsigned long)seed, ij[0],
+                         ij[1], lit, reaches);
             lit_count += lit;
         }
     }
