@@ -24,15 +24,15 @@ PROGRAMS := wallwarp wallwarp-sim wallwarp-eval wallwarp-pose
 MAINS    := firmware/main.c sim/wallwarp_sim.c sim/wallwarp_eval.c sim/wallwarp_pose.c
 
 WARP_C     := $(wildcard warp_fixed/*.c)
-FIRMWARE_C := $(filter-out $(MAINS),$(wildcard firmware/*.c))
-SIM_C      := $(filter-out $(MAINS),$(wildcard sim/*.c))
-TESTS_C    := $(wildcard tests/*/test_*.c)
+FIRMWARE_C := $(filter-out $(MAINS),$(wildcard firmware/*.c firmware/*/*.c))
+SIM_C      := $(filter-out $(MAINS),$(wildcard sim/*.c sim/*/*.c))
+TESTS_C    := $(wildcard tests/*/test_*.c tests/*/*/test_*.c)
 
 objects = $(patsubst %,$(BUILD)/obj/%.o,$(1))
 TESTS   := $(patsubst tests/%.c,$(BUILD)/tests/%,$(TESTS_C))
 SUPPORT_C := $(wildcard tests/support/*.c)
 # Programs that the scripts among the tests run.
-HELPERS := $(BUILD)/tests/sim/serve_bus $(BUILD)/tests/firmware/print_frames
+HELPERS := $(BUILD)/tests/sim/bus/serve_bus $(BUILD)/tests/firmware/print_frames
 
 .PHONY: all programs
 all: setup-demo ## Build the firmware and the tools for this machine into build/host
@@ -55,7 +55,7 @@ $(BUILD)/obj/%.c.o: %.c
 	$(if $(V),,@echo "  CC    $<")
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
 
-$(BUILD)/obj/sim/page.S.o: sim/page.html sim/page.js
+$(BUILD)/obj/sim/run/page.S.o: sim/run/page.html sim/run/page.js
 $(BUILD)/obj/%.S.o: %.S
 	@mkdir -p $(@D)
 	$(Q)$(CC) -I. -c $< -o $@
@@ -67,7 +67,7 @@ $(BUILD)/lib$(1).a: $(call objects,$(2))
 endef
 $(eval $(call archive,warp,$(WARP_C)))
 $(eval $(call archive,firmware,$(FIRMWARE_C)))
-$(eval $(call archive,sim,$(SIM_C) $(wildcard sim/*.S)))
+$(eval $(call archive,sim,$(SIM_C) $(wildcard sim/*/*.S)))
 $(eval $(call archive,support,$(SUPPORT_C)))
 
 LIBS := $(BUILD)/libsim.a $(BUILD)/libfirmware.a $(BUILD)/libwarp.a
@@ -102,7 +102,7 @@ $(GOLDEN_VARIANTS:%=golden-%): golden-%:
 
 # Commands of the test run, one word list each.
 golden_check = tests/golden/check.sh $(if $(findstring aarch64,$(1)),qemu-aarch64 )build/variants/$(1)/golden_hashes
-SCRIPTS      := $(wildcard tests/*/test_*.sh)
+SCRIPTS      := $(wildcard tests/*/test_*.sh tests/*/*/test_*.sh)
 RUN_TESTS     = $(foreach t,$(TESTS),'$(t)') $(foreach s,$(SCRIPTS),'$(s) $(BUILD)') \
                 $(foreach v,$(GOLDEN_VARIANTS),'$(call golden_check,$(v))')
 

@@ -6,12 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "firmware/room_checks.h"
-#include "firmware/room_places.h"
-#include "firmware/room_report.h"
-#include "firmware/room_schema.h"
-#include "firmware/room_text.h"
-#include "firmware/room_walls.h"
+#include "firmware/room/room_checks.h"
+#include "firmware/room/room_places.h"
+#include "firmware/room/room_report.h"
+#include "firmware/room/room_schema.h"
+#include "firmware/room/room_text.h"
+#include "firmware/room/room_walls.h"
 
 // What libcyaml has to say: its first error is the reason, what follows is its way there.
 typedef struct {

@@ -7,14 +7,14 @@
 #include <sys/stat.h>
 
 #include "hal/hal_board.h"
-#include "sim/png_file.h"
-#include "sim/sim_bus.h"
-#include "sim/sim_camera.h"
-#include "sim/sim_clock.h"
-#include "sim/sim_display.h"
-#include "sim/sim_gpio.h"
-#include "sim/sim_watchdog.h"
-#include "sim/socketcand_server.h"
+#include "sim/files/png_file.h"
+#include "sim/bus/sim_bus.h"
+#include "sim/devices/sim_camera.h"
+#include "sim/devices/sim_clock.h"
+#include "sim/devices/sim_display.h"
+#include "sim/devices/sim_gpio.h"
+#include "sim/devices/sim_watchdog.h"
+#include "sim/bus/socketcand_server.h"
 
 enum { REFRESH_HZ = 60, WATCHDOG_US = 2000000, PICTURE_PERIOD_US = 1000000, LAST_PORT = 65535, BOARD_ERROR = 256 };
 

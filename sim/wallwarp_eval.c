@@ -3,8 +3,8 @@
 #include <argp.h>
 #include <string.h>
 
-#include "sim/eval_grid.h"
-#include "sim/eval_psnr.h"
+#include "sim/eval/eval_grid.h"
+#include "sim/eval/eval_psnr.h"
 
 enum { BAD_USAGE = 2 };
 

@@ -5,9 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "sim/pose_link.h"
-#include "sim/pose_list.h"
-#include "sim/pose_send.h"
+#include "sim/pose/pose_link.h"
+#include "sim/pose/pose_list.h"
+#include "sim/pose/pose_send.h"
 
 enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, LONG_LIST_US = 2000000 };
 

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "sim/png_file.h"
-#include "sim/sim_run.h"
-#include "sim/warp_once.h"
+#include "sim/files/png_file.h"
+#include "sim/run/sim_run.h"
+#include "sim/eval/warp_once.h"
 
 enum { DONE = 0, FAILED = 1, BAD_USAGE = 2 };
 

@@ -10,11 +10,11 @@
 
 #include <cmocka.h>
 
-#include "sim/sim_camera.h"
-#include "sim/sim_clock.h"
-#include "sim/sim_display.h"
-#include "sim/sim_gpio.h"
-#include "sim/sim_watchdog.h"
+#include "sim/devices/sim_camera.h"
+#include "sim/devices/sim_clock.h"
+#include "sim/devices/sim_display.h"
+#include "sim/devices/sim_gpio.h"
+#include "sim/devices/sim_watchdog.h"
 #include "tests/support/room_bench.h"
 
 static room_bench_t bench;

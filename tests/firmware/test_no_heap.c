@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
-#include "sim/sim_camera.h"
-#include "sim/sim_display.h"
+#include "sim/devices/sim_camera.h"
+#include "sim/devices/sim_display.h"
 #include "tests/support/room_bench.h"
 
 /* The allocator of this program is the C library's behind a trap. So it cannot be built with a sanitizer, which brings

@@ -3,7 +3,7 @@
 #ifndef TESTS_SUPPORT_BUS_BENCH_H
 #define TESTS_SUPPORT_BUS_BENCH_H
 
-#include "sim/sim_bus.h"
+#include "sim/bus/sim_bus.h"
 
 enum { BUS_BENCH_BIT_US = 2 };
 

@@ -3,7 +3,7 @@
 #ifndef TESTS_SUPPORT_CAMERA_RIG_H
 #define TESTS_SUPPORT_CAMERA_RIG_H
 
-#include "sim/sim_camera.h"
+#include "sim/devices/sim_camera.h"
 
 enum { RIG_WIDTH = 64, RIG_HEIGHT = 32, RIG_START_US = 5000, RIG_PERIOD_US = 10000 };
 

@@ -11,9 +11,9 @@
 #include <cmocka.h>
 
 #include "firmware/safe_picture.h"
-#include "sim/sim_camera.h"
-#include "sim/sim_clock.h"
-#include "sim/sim_display.h"
+#include "sim/devices/sim_camera.h"
+#include "sim/devices/sim_clock.h"
+#include "sim/devices/sim_display.h"
 #include "tests/support/scratch.h"
 
 static const char room_text[] =

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include "firmware/can_protocol.h"
-#include "sim/sim_world.h"
+#include "sim/run/sim_world.h"
 
 enum { ROOM_BENCH_HZ = 60, ROOM_BENCH_BOARDS = 2 };
 

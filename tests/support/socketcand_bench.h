@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "sim/socketcand_server.h"
+#include "sim/bus/socketcand_server.h"
 
 enum { SOCKETCAND_BENCH_TEXT = 65536 };
 

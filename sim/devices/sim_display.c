@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// The display in the simulator (hal/hal_display.h): pictures in memory, blanks in the board's time, faults on demand.
+#include "sim/devices/sim_display.h"
+
+#include <stdlib.h>
+
+#include "sim/devices/sim_clock.h"
+
+enum { BUFFERS = 3, NONE = -1, NO_BLANK_US = 100000 };
+
+struct hal_display {
+    sim_display_settings_t settings;
+    sim_display_faults_t faults;
+    sim_display_counts_t counts;
+    image_t buffers[BUFFERS];
+    int shown, late, waiting, borrowed; /**< which buffer has that part, or NONE; all different */
+    uint32_t late_blanks;               /**< how many blanks the late one has to wait yet */
+    int64_t blank;                      /**< the last one performed */
+    uint8_t *pixels;
+};
+
+hal_display_t *sim_display_create(const sim_display_settings_t *settings, char error[FILE_ERROR_LENGTH])
+{
+    if (settings->width < 1 || settings->width > IMAGE_MAX_WIDTH || settings->height < 1 ||
+        settings->height > IMAGE_MAX_HEIGHT) {
+        file_error(error, "display", "panel %dx%d, expected at most %dx%d", settings->width, settings->height,
+                   IMAGE_MAX_WIDTH, IMAGE_MAX_HEIGHT);
+        return NULL;
+    }
+    if (!sim_rate_is_valid(&settings->blanks)) {
+        file_error(error, "display", "%d blanks in %d s, expected up to 1000000 a second", settings->blanks.frames,
+                   settings->blanks.seconds);
+        return NULL;
+    }
+    const int32_t stride = settings->width * (int32_t)IMAGE_XRGB8888;
+    const size_t bytes = (size_t)stride * (size_t)settings->height;
+    hal_display_t *display = malloc(sizeof *display);
+    uint8_t *pixels = calloc(BUFFERS, bytes);
+    if (display == NULL || pixels == NULL) {
+        free(display);
+        free(pixels);
+        file_error(error, "display", "out of memory");
+        return NULL;
+    }
+    *display = (hal_display_t){.settings = *settings, .shown = NONE, .late = NONE, .waiting = NONE, .borrowed = NONE};
+    display->pixels = pixels;
+    display->blank = sim_rate_beat_at(&settings->blanks, hal_time_now_us(settings->clock));
+    for (size_t i = 0; i < BUFFERS; i++)
+        display->buffers[i] = (image_t){pixels + i * bytes, settings->width, settings->height, stride, IMAGE_XRGB8888};
+    return display;
+}
+
+void sim_display_destroy(hal_display_t *display)
+{
+    if (display == NULL)
+        return;
+    free(display->pixels);
+    free(display);
+}
+
+sim_display_faults_t *sim_display_faults(hal_display_t *display)
+{
+    return &display->faults;
+}
+
+sim_display_counts_t sim_display_counts(const hal_display_t *display)
+{
+    return display->counts;
+}
+
+static bool is_unplugged(const hal_display_t *display, int64_t time_us)
+{
+    return display->faults.unplugged_until_us != 0 && time_us < display->faults.unplugged_until_us;
+}
+
+/* Which buffer reaches the wall at this blank, or NONE. */
+static int flip(hal_display_t *display)
+{
+    if (display->late != NONE) {
+        if (--display->late_blanks > 0)
+            return NONE;
+        const int flipped = display->late;
+        display->late = NONE;
+        return flipped;
+    }
+    const int flipped = display->waiting;
+    display->waiting = NONE;
+    if (flipped != NONE && display->faults.late_next > 0) {
+        display->faults.late_next--;
+        display->late = flipped;
+        display->late_blanks = display->faults.late_blanks > 0 ? display->faults.late_blanks : 1;
+        return NONE;
+    }
+    return flipped;
+}
+
+static void perform_blank(hal_display_t *display)
+{
+    display->blank++;
+    const bool dark = is_unplugged(display, sim_rate_time_us(&display->settings.blanks, display->blank));
+    const int flipped = dark ? NONE : flip(display);
+    if (flipped != NONE) {
+        display->shown = flipped;
+        display->counts.flips++;
+    } else if (display->counts.flips > 0) {
+        display->counts.missed++;
+    }
+}
+
+void sim_display_advance(hal_display_t *display, int64_t now_us)
+{
+    const int64_t due = sim_rate_beat_at(&display->settings.blanks, now_us);
+    while (display->blank < due && (display->waiting != NONE || display->late != NONE))
+        perform_blank(display);
+    if (display->blank < due) { /* nothing to flip: only count */
+        if (display->counts.flips > 0)
+            display->counts.missed += (uint64_t)(due - display->blank);
+        display->blank = due;
+    }
+}
+
+const image_t *sim_display_shown(const hal_display_t *display)
+{
+    if (display->shown == NONE || is_unplugged(display, hal_time_now_us(display->settings.clock)))
+        return NULL;
+    return &display->buffers[display->shown];
+}
+
+static int find_free(const hal_display_t *display)
+{
+    for (int i = 0; i < BUFFERS; i++)
+        if (i != display->shown && i != display->late && i != display->waiting)
+            return i;
+    return NONE;
+}
+
+hal_status_t hal_display_back_buffer(hal_display_t *display, image_t *buffer)
+{
+    const int64_t now_us = hal_time_now_us(display->settings.clock);
+    sim_display_advance(display, now_us);
+    if (is_unplugged(display, now_us))
+        return HAL_IO;
+    if (display->borrowed == NONE)
+        display->borrowed = find_free(display);
+    if (display->borrowed == NONE)
+        return HAL_FULL;
+    *buffer = display->buffers[display->borrowed];
+    return HAL_OK;
+}
+
+hal_status_t hal_display_present(hal_display_t *display)
+{
+    const int64_t now_us = hal_time_now_us(display->settings.clock);
+    sim_display_advance(display, now_us);
+    if (display->borrowed == NONE)
+        return HAL_BAD_CALL;
+    const int presented = display->borrowed;
+    display->borrowed = NONE;
+    if (is_unplugged(display, now_us) || display->faults.refuse_next > 0) {
+        if (display->faults.refuse_next > 0)
+            display->faults.refuse_next--;
+        display->counts.refused++;
+        return HAL_IO;
+    }
+    if (display->waiting != NONE)
+        display->counts.replaced++;
+    display->waiting = presented;
+    return HAL_OK;
+}
+
+int64_t hal_display_next_vblank_us(const hal_display_t *display)
+{
+    const sim_rate_t *blanks = &display->settings.blanks;
+    return sim_rate_time_us(blanks, sim_rate_beat_at(blanks, hal_time_now_us(display->settings.clock)) + 1);
+}
+
+hal_status_t hal_display_wait_vblank(hal_display_t *display)
+{
+    const hal_time_t *clock = display->settings.clock;
+    const int64_t begin_us = hal_time_now_us(clock);
+    const int64_t next_us = hal_display_next_vblank_us(display);
+    if (sim_clock_is_real(clock)) {
+        if (display->settings.while_waiting != NULL)
+            display->settings.while_waiting(display->settings.context);
+        sim_clock_sleep_until_us(clock, is_unplugged(display, begin_us) ? begin_us + NO_BLANK_US : next_us);
+    }
+    sim_display_advance(display, hal_time_now_us(clock));
+    return is_unplugged(display, begin_us) ? HAL_IO : HAL_OK;
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Command-line options that the commands of wallwarp-eval share: ROOM --board NAME --pose "...".
+#ifndef SIM_EVAL_OPTIONS_H
+#define SIM_EVAL_OPTIONS_H
+
+#include <argp.h>
+
+#include "sim/eval/warp_once.h"
+
+/**
+ * An argp child whose input is a warp_once_place_t, empty at the start. All three are required; anything missing or
+ * too much ends the program as bad usage.
+ */
+extern const struct argp eval_place_argp;
+
+/**
+ * Open the wall; on failure say on stderr why. Warnings of the room file go to stderr too.
+ *
+ * @param command  As it begins error messages: "wallwarp-eval grid".
+ */
+warp_once_status_t eval_open(warp_once_t *once, const warp_once_place_t *place, const char *command);
+
+/** Write one line "COMMAND: what" on stderr. */
+void eval_error(const char *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/**
+ * Push the results out.
+ *
+ * @return The exit status: 0, or 1 when stdout did not take them all (then said on stderr).
+ */
+int eval_finish(const char *command);
+
+#endif

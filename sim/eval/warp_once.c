@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// One board of a room file, one pose, one picture -> one corrected panel, with the product's own code.
+#include "sim/eval/warp_once.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "sim/files/pixel.h"
+#include "sim/files/png_file.h"
+#include "sim/pose/pose_text.h"
+
+__attribute__((format(printf, 2, 3))) static void say(char error[ROOM_MESSAGE_LENGTH], const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(error, ROOM_MESSAGE_LENGTH, format, arguments);
+    va_end(arguments);
+}
+
+static void say_boards(char error[ROOM_MESSAGE_LENGTH], const room_t *room, const warp_once_place_t *place)
+{
+    char names[ROOM_MESSAGE_LENGTH] = "";
+    for (int32_t b = 0; b < room->board_count; b++) {
+        const size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%s", b > 0 ? ", " : "", room->board[b].name);
+    }
+    say(error, "--board %.40s: %.200s has no such board, expected one of %.220s", place->board, place->room, names);
+}
+
+static warp_once_status_t open_in_room(warp_once_t *once, const warp_once_place_t *place, const room_t *room,
+                                       char error[ROOM_MESSAGE_LENGTH])
+{
+    const room_board_t *board = room_board_named(room, place->board);
+    if (board == NULL) {
+        say_boards(error, room, place);
+        return WARP_ONCE_BAD_USAGE;
+    }
+    warp_once_t made = {.camera = room->camera, .board = *board};
+    pose_t pose;
+    char reason[256];
+    if (!pose_from_text(place->pose, &pose, reason)) {
+        say(error, "--pose: %s", reason);
+        return WARP_ONCE_BAD_USAGE;
+    }
+    if (!homography_from_pose(&made.homography, &made.camera, &made.board.wall, &pose)) {
+        say(error, "--pose %.200s: the quaternion is zero, expected one of unit length", place->pose);
+        return WARP_ONCE_BAD_USAGE;
+    }
+    made.warp = malloc(sizeof *made.warp);
+    if (made.warp == NULL) {
+        say(error, "out of memory");
+        return WARP_ONCE_FAILED;
+    }
+    *once = made;
+    return WARP_ONCE_OK;
+}
+
+warp_once_status_t warp_once_open(warp_once_t *once, const warp_once_place_t *place, room_warning_fn *warn,
+                                  char error[ROOM_MESSAGE_LENGTH])
+{
+    room_t *room = malloc(sizeof *room);
+    if (room == NULL) {
+        say(error, "out of memory");
+        return WARP_ONCE_FAILED;
+    }
+    warp_once_status_t status = WARP_ONCE_FAILED;
+    if (room_load(room, place->room, warn, NULL, error))
+        status = open_in_room(once, place, room, error);
+    free(room);
+    return status;
+}
+
+void warp_once_close(warp_once_t *once)
+{
+    free(once->warp);
+    once->warp = NULL;
+}
+
+bool warp_once_read(const warp_once_t *once, const char *path, image_format_t format, image_t *picture,
+                    char error[ROOM_MESSAGE_LENGTH])
+{
+    image_t image;
+    if (!png_file_load(path, format, &image, error))
+        return false;
+    if (image.width != once->camera.width || image.height != once->camera.height) {
+        say(error, "%s: %d x %d pixels, expected %d x %d: the room's camera", path, image.width, image.height,
+            once->camera.width, once->camera.height);
+        free(image.data);
+        return false;
+    }
+    *picture = image;
+    return true;
+}
+
+bool warp_once_panel(const warp_once_t *once, image_format_t format, image_t *panel)
+{
+    const int32_t width = once->homography.panel_width, height = once->homography.panel_height;
+    const int32_t stride = width * (int32_t)format;
+    uint8_t *data = calloc((size_t)height, (size_t)stride);
+    if (data == NULL)
+        return false;
+    *panel = (image_t){.data = data, .width = width, .height = height, .stride = stride, .format = format};
+    return true;
+}
+
+bool warp_once(warp_once_t *once, const warp_method_t *method, const image_t *panel, const image_t *picture)
+{
+    const uint8_t *rgb = once->board.border;
+    const uint8_t luma = luma_from_rgb(rgb[0], rgb[1], rgb[2]);
+    const uint8_t gray[3] = {luma, luma, luma};
+    warp_init(once->warp, method != NULL ? *method : *once->board.method, once->board.step_all,
+              picture->format == IMAGE_GRAY8 ? gray : rgb);
+    return warp_frame(once->warp, &warp_kernels_scalar, NULL, &once->homography, panel, picture);
+}

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opens either kind of link; sends over SocketCAN.
+#include "sim/pose/pose_link.h"
+
+#include <errno.h>
+#include <linux/can.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <poll.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "sim/pose/pose_link_socketcand.h"
+
+enum { CONGESTION_MS = 1000 };
+
+static bool fail(char error[POSE_LINK_MESSAGE_LENGTH], const char *interface, const char *what, const char *advice)
+{
+    snprintf(error, POSE_LINK_MESSAGE_LENGTH, "%.16s: %.90s; %.120s", interface, what, advice);
+    return false;
+}
+
+/** The remedy is to bring the interface up; fd_rate is "" or says how with FD. */
+static bool fail_until_up(char error[POSE_LINK_MESSAGE_LENGTH], const char *interface, const char *what,
+                          const char *fd_rate)
+{
+    snprintf(error, POSE_LINK_MESSAGE_LENGTH, "%.16s: %.90s; try `ip link set %.16s up type can bitrate 500000%s`",
+             interface, what, interface, fd_rate);
+    return false;
+}
+
+/** The interface exists, is CAN, is up, and carries FD when that is wanted. */
+static bool check_interface(int can, const char *name, bool fd, char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    struct ifreq request = {.ifr_ifindex = 0};
+    strncpy(request.ifr_name, name, sizeof request.ifr_name - 1);
+    if (ioctl(can, SIOCGIFMTU, &request) != 0)
+        return fail(error, name, "no such interface", "see `ip link`; a simulator is given as HOST:PORT");
+    if (request.ifr_mtu != CAN_MTU && request.ifr_mtu != CANFD_MTU)
+        return fail(error, name, "not a CAN interface", "see `ip link show type can`");
+    if (fd && request.ifr_mtu != CANFD_MTU)
+        return fail_until_up(error, name, "carries no CAN FD", " dbitrate 2000000 fd on");
+    if (ioctl(can, SIOCGIFFLAGS, &request) != 0 || (request.ifr_flags & IFF_UP) == 0)
+        return fail_until_up(error, name, "is down", "");
+    return true;
+}
+
+static bool bind_interface(int can, const char *name, bool fd)
+{
+    /* An empty filter: nothing is received, so nothing piles up. */
+    const int on = 1;
+    const struct sockaddr_can address = {.can_family = AF_CAN, .can_ifindex = (int)if_nametoindex(name)};
+    return setsockopt(can, SOL_CAN_RAW, CAN_RAW_FILTER, NULL, 0) == 0 &&
+           (!fd || setsockopt(can, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on) == 0) &&
+           bind(can, (const struct sockaddr *)&address, sizeof address) == 0;
+}
+
+static bool open_interface(pose_link_t *link, const char *name, bool fd, char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    if (strlen(name) == 0 || strlen(name) >= IFNAMSIZ)
+        return fail(error, name, "not the name of an interface", "expected one like can0, or HOST:PORT");
+    const int can = socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
+    if (can < 0)
+        return fail_until_up(error, name, "no CAN in this kernel, `modprobe can_raw`; a simulator is HOST:PORT", "");
+    if (!check_interface(can, name, fd, error)) {
+        close(can);
+        return false;
+    }
+    if (!bind_interface(can, name, fd)) {
+        fail_until_up(error, name, strerror(errno), "");
+        close(can);
+        return false;
+    }
+    *link = (pose_link_t){.socket = can};
+    snprintf(link->name, sizeof link->name, "%s", name);
+    return true;
+}
+
+bool pose_link_open(pose_link_t *link, const char *bus, bool fd, char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    if (strchr(bus, ':') == NULL)
+        return open_interface(link, bus, fd, error);
+    if (fd) {
+        snprintf(error, POSE_LINK_MESSAGE_LENGTH,
+                 "%.60s: socketcand carries classic frames only; leave --fd out, or give a CAN FD interface", bus);
+        return false;
+    }
+    const int socket = pose_link_socketcand_open(bus, error);
+    if (socket < 0)
+        return false;
+    *link = (pose_link_t){.socket = socket, .socketcand = true};
+    snprintf(link->name, sizeof link->name, "%.63s", bus);
+    return true;
+}
+
+static bool send_interface(const pose_link_t *link, const hal_can_frame_t *frame, char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    struct canfd_frame raw = {.can_id = frame->extended ? frame->id | CAN_EFF_FLAG : frame->id, .len = frame->length};
+    if (frame->fd && frame->bit_rate_switch)
+        raw.flags = CANFD_BRS;
+    memcpy(raw.data, frame->data, frame->length);
+    const size_t size = frame->fd ? CANFD_MTU : CAN_MTU;
+    for (int waited_ms = 0; waited_ms < CONGESTION_MS; waited_ms++) {
+        if (write(link->socket, &raw, size) == (ssize_t)size)
+            return true;
+        if (errno != ENOBUFS && errno != EINTR)
+            return fail_until_up(error, link->name, strerror(errno), "");
+        poll(NULL, 0, 1); /* a full queue of the interface does not show in poll() on its socket */
+    }
+    return fail(error, link->name, "nothing gets onto the bus",
+                "is another node there, powered, with the same bit rate, and the bus terminated?");
+}
+
+bool pose_link_send(pose_link_t *link, const hal_can_frame_t *frame, int count, char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    if (link->socketcand)
+        return pose_link_socketcand_send(link, frame, count, error);
+    for (int i = 0; i < count; i++)
+        if (!send_interface(link, &frame[i], error))
+            return false;
+    return true;
+}
+
+void pose_link_close(pose_link_t *link)
+{
+    if (link->socketcand)
+        pose_link_socketcand_finish(link);
+    close(link->socket);
+    link->socket = -1;
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The TCP half of a pose link: a client of the socketcand protocol in raw mode.
+#ifndef SIM_POSE_LINK_SOCKETCAND_H
+#define SIM_POSE_LINK_SOCKETCAND_H
+
+#include "sim/pose/pose_link.h"
+
+/**
+ * Connect to HOST:PORT, open can0, go to raw mode.
+ *
+ * @param[out] error  Written only on failure.
+ * @return The socket, or -1.
+ */
+int pose_link_socketcand_open(const char *bus, char error[POSE_LINK_MESSAGE_LENGTH]);
+
+/** As pose_link_send(), in one piece of text. What the server has sent is thrown away. */
+bool pose_link_socketcand_send(pose_link_t *link, const hal_can_frame_t *frame, int count,
+                               char error[POSE_LINK_MESSAGE_LENGTH]);
+
+/** Wait until the server has read everything, for two seconds at most. */
+void pose_link_socketcand_finish(pose_link_t *link);
+
+#endif

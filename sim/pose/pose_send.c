@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sends a pose list onto a bus at its own pace.
+#include "sim/pose/pose_send.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <time.h>
+
+#include "firmware/can_protocol.h"
+
+enum { PROGRESS_EVERY_US = 250000, NS_PER_US = 1000, US_PER_S = 1000000 };
+
+static int64_t now_us(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * US_PER_S + now.tv_nsec / NS_PER_US;
+}
+
+static void sleep_until_us(int64_t time_us)
+{
+    const struct timespec when = {.tv_sec = (time_t)(time_us / US_PER_S),
+                                  .tv_nsec = (long)(time_us % US_PER_S) * NS_PER_US};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &when, NULL) == EINTR)
+        continue;
+}
+
+/** @return Frames made: 1, 3, or 0 when the pose does not fit. */
+static int encode(hal_can_frame_t frame[CAN_POSE_PARTS], const pose_t *pose, bool fd, int64_t time_us, uint64_t number)
+{
+    const uint64_t counters = fd ? CAN_E2E_P05_COUNTERS : CAN_E2E_P01_COUNTERS;
+    const can_pose_t message = {.pose = *pose,
+                                .capture_time_us = (uint64_t)time_us,
+                                .quality = CAN_POSE_TRACKED,
+                                .counter = (uint8_t)(number % counters)};
+    if (fd)
+        return can_pose_fd_encode(frame, &message) ? 1 : 0;
+    return can_pose_set_encode(frame, &message) ? CAN_POSE_PARTS : 0;
+}
+
+bool pose_send_check(const pose_list_t *list, bool fd, char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    hal_can_frame_t frame[CAN_POSE_PARTS];
+    for (size_t i = 0; i < list->count; i++) {
+        if (encode(frame, &list->entry[i].pose, fd, 0, 0) > 0)
+            continue;
+        snprintf(error, POSE_LINK_MESSAGE_LENGTH,
+                 "pose %zu: farther than 83.886 m from the origin, which three classic frames cannot say; use --fd",
+                 i + 1);
+        return false;
+    }
+    return true;
+}
+
+static void show(size_t sent, const pose_list_t *list, int64_t since_us)
+{
+    const int64_t length_us = list->entry[list->count - 1].time_us - list->entry[0].time_us;
+    fprintf(stderr, "\r%zu of %zu poses, %.1f of %.1f s ", sent, list->count, (double)since_us / US_PER_S,
+            (double)length_us / US_PER_S);
+}
+
+bool pose_send_list(pose_link_t *link, const pose_list_t *list, bool fd, bool show_progress,
+                    char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    const int64_t start_us = now_us();
+    int64_t shown_us = start_us;
+    for (size_t i = 0; i < list->count; i++) {
+        sleep_until_us(start_us + list->entry[i].time_us - list->entry[0].time_us);
+        const int64_t time_us = now_us();
+        hal_can_frame_t frame[CAN_POSE_PARTS];
+        const int frames = encode(frame, &list->entry[i].pose, fd, time_us, (uint64_t)start_us + i);
+        if (!pose_link_send(link, frame, frames, error))
+            return false;
+        if (show_progress && time_us - shown_us >= PROGRESS_EVERY_US) {
+            show(i + 1, list, time_us - start_us);
+            shown_us = time_us;
+        }
+    }
+    if (show_progress)
+        fprintf(stderr, "\r%60s\r", "");
+    return true;
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A tracker on the simulated bus: sends a pose list, each pose at its own time.
+#ifndef SIM_POSE_SENDER_H
+#define SIM_POSE_SENDER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "sim/pose/pose_list.h"
+#include "sim/bus/sim_bus.h"
+
+typedef struct {
+    sim_bus_t *bus;
+    const pose_list_t *list; /**< must outlive the sender */
+    bool fd;                 /**< one CAN FD frame a pose, else a set of three classic frames */
+    int64_t start_us;        /**< bus time at which the list's first pose is sent */
+} pose_sender_config_t;
+
+/** Its fields are the sender's own, but for the counts. */
+typedef struct {
+    pose_sender_config_t config;
+    hal_can_t *can;
+    size_t next; /**< entry of the list */
+    uint8_t counter;
+    int64_t sent;   /**< poses queued on the controller */
+    int64_t unsent; /**< poses that could not be encoded, or that the controller refused */
+} pose_sender_t;
+
+/**
+ * Plug the tracker in.
+ *
+ * @param[out] sender  Written only on success. Nothing to free: the controller lives as long as the bus.
+ * @return false when the bus takes no more controllers.
+ */
+bool pose_sender_open(pose_sender_t *sender, const pose_sender_config_t *config);
+
+/** Run the bus up to a moment, as sim_bus_advance() does, and send every pose whose time has come. */
+void pose_sender_advance(pose_sender_t *sender, int64_t until_us);
+
+#endif

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables and the bus log of a run, written while it goes on.
+#include "sim/run/run_files.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { PATH_LENGTH = 4096, US_PER_S = 1000000 };
+
+FILE *run_file_create(const char *folder, const char *name, char error[FILE_ERROR_LENGTH])
+{
+    char path[PATH_LENGTH];
+    const int length = snprintf(path, sizeof path, "%s/%s", folder, name);
+    if (length < 0 || (size_t)length >= sizeof path) {
+        file_error(error, folder, "the name is too long");
+        return NULL;
+    }
+    FILE *file = fopen(path, "wb");
+    if (file == NULL)
+        file_error(error, path, "can't be written: %s", strerror(errno));
+    return file;
+}
+
+bool run_file_close(FILE *file, const char *name, char error[FILE_ERROR_LENGTH])
+{
+    if (file == NULL)
+        return true;
+    const bool whole = !ferror(file);
+    errno = 0;
+    if (fclose(file) == 0 && whole)
+        return true;
+    return file_error(error, name, "could not be written whole: %s", errno != 0 ? strerror(errno) : "write error");
+}
+
+/* The folder, with those above it that are missing too. */
+static bool make_folder(const char *folder, char error[FILE_ERROR_LENGTH])
+{
+    char path[PATH_LENGTH];
+    const size_t length = strlen(folder);
+    if (length == 0 || length >= sizeof path)
+        return file_error(error, folder, "is no name for a folder");
+    memcpy(path, folder, length + 1);
+    for (size_t i = 1; i <= length; i++) {
+        if (path[i] != '/' && path[i] != '\0')
+            continue;
+        const char end = path[i];
+        path[i] = '\0';
+        if (mkdir(path, 0777) != 0 && errno != EEXIST)
+            return file_error(error, path, "can't make this folder: %s", strerror(errno));
+        path[i] = end;
+    }
+    struct stat found;
+    if (stat(folder, &found) != 0 || !S_ISDIR(found.st_mode))
+        return file_error(error, folder, "is not a folder");
+    return true;
+}
+
+bool run_files_open(run_files_t *files, const char *folder, int64_t start_us, char error[FILE_ERROR_LENGTH])
+{
+    if (!make_folder(folder, error))
+        return false;
+    run_files_t opened = {.folder = folder, .start_us = start_us};
+    opened.frames = run_file_create(folder, "frames.csv", error);
+    opened.timings = opened.frames == NULL ? NULL : run_file_create(folder, "timings.csv", error);
+    opened.bus = opened.timings == NULL ? NULL : run_file_create(folder, "bus.log", error);
+    if (opened.bus == NULL) {
+        char second[FILE_ERROR_LENGTH];
+        (void)run_file_close(opened.timings, "timings.csv", second);
+        (void)run_file_close(opened.frames, "frames.csv", second);
+        return false;
+    }
+    fputs("frame,time_s,board,state,pose,k_in,k_all,lit_pixels\n", opened.frames);
+    fputs("frame,board,step_ms\n", opened.timings);
+    *files = opened;
+    return true;
+}
+
+static void print_seconds(FILE *file, int64_t time_us)
+{
+    fprintf(file, "%" PRId64 ".%06" PRId64, time_us / US_PER_S, time_us % US_PER_S);
+}
+
+void run_files_log(void *context, int sender, const hal_can_frame_t *frame)
+{
+    const run_files_t *files = context;
+    (void)sender;
+    const int64_t since_us = frame->time_us - files->start_us;
+    fputc('(', files->bus);
+    print_seconds(files->bus, since_us < 0 ? 0 : since_us);
+    fprintf(files->bus, frame->extended ? ") can0 %08" PRIX32 "#" : ") can0 %03" PRIX32 "#", frame->id);
+    if (frame->fd)
+        fprintf(files->bus, "#%d", frame->bit_rate_switch ? 1 : 0);
+    for (int i = 0; i < frame->length; i++)
+        fprintf(files->bus, "%02X", frame->data[i]);
+    fputc('\n', files->bus);
+}
+
+void run_files_add(run_files_t *files, const run_record_t *record, const room_t *room)
+{
+    const int32_t n = record->frames - 1;
+    for (int32_t i = 0; i < record->boards; i++) {
+        const run_wall_t *wall = &record->wall[n * record->boards + i];
+        const projector_report_t *report = &wall->report;
+        char pose[RUN_POSE_TEXT_LENGTH] = "";
+        if (report->corrected)
+            run_pose_text(pose, &report->pose.pose);
+        fprintf(files->frames, "%" PRId32 ",", n);
+        print_seconds(files->frames, record->frame[n].time_us);
+        fprintf(files->frames, ",%s,%s,%s,%.4f,%.4f,%" PRId32 "\n", room->board[i].name, run_state_name(report->state),
+                pose, report->corrected ? report->warp.k_in_q16 / 65536.0 : 0.0,
+                report->corrected ? report->warp.k_all_q16 / 65536.0 : 0.0,
+                report->corrected ? report->warp.lit_pixels : 0);
+        fprintf(files->timings, "%" PRId32 ",%s,%.3f\n", n, room->board[i].name, (double)wall->step_time_us / 1000);
+    }
+}
+
+static bool write_psnr(const run_files_t *files, const run_record_t *record, const room_t *room,
+                       char error[FILE_ERROR_LENGTH])
+{
+    FILE *file = run_file_create(files->folder, "psnr.csv", error);
+    if (file == NULL)
+        return false;
+    fputs("frame,board,psnr_db,limit_db,original_psnr_db,original_limit_db,coverage\n", file);
+    for (int32_t i = 0; i < record->psnrs; i++) {
+        const run_psnr_t *psnr = &record->psnr[i];
+        fprintf(file, "%" PRId32 ",%s,", psnr->frame, room->board[psnr->board].name);
+        for (int kind = 0; kind < RUN_DBS; kind++) {
+            if (!isnan(psnr->db[kind]))
+                fprintf(file, "%.3f", psnr->db[kind]);
+            fputc(',', file);
+        }
+        fprintf(file, "%.4f\n", psnr->coverage);
+    }
+    return run_file_close(file, "psnr.csv", error);
+}
+
+bool run_files_close(run_files_t *files, const run_record_t *record, const room_t *room, char error[FILE_ERROR_LENGTH])
+{
+    bool ok = write_psnr(files, record, room, error);
+    ok = run_file_close(files->frames, "frames.csv", error) && ok;
+    ok = run_file_close(files->timings, "timings.csv", error) && ok;
+    return run_file_close(files->bus, "bus.log", error) && ok;
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// How good a shown wall is: PSNR seen from the viewer's eye, against the truth and against the limit of any method.
+#ifndef SIM_RUN_JUDGE_H
+#define SIM_RUN_JUDGE_H
+
+#include "sim/run/run_record.h"
+#include "warp_fixed/image.h"
+
+/** What a wall is judged by. */
+typedef struct {
+    const homography_t *homography; /**< from the panel to the viewer's picture */
+    const image_t *shown;           /**< XRGB8888: what the projector shows; its luma is judged */
+    const image_t *picture;         /**< XRGB8888: the camera's picture */
+    const image_t *original;        /**< GRAY8: a finer original, q times as wide and as high; NULL for none */
+} run_judge_t;
+
+/**
+ * Judge a wall by the mesh evaluation (sim/eval/mesh_psnr.h).
+ *
+ * Samples per picture pixel: 4 along each axis; 16 where the projector is much finer than the picture, and a multiple
+ * of q. Uses the heap.
+ *
+ * @param[in,out] psnr   On success everything but frame and board is written.
+ * @param[out]    error  On failure: one line.
+ */
+bool run_judge(run_psnr_t *psnr, const run_judge_t *wall, char error[256]);
+
+#endif

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run of a whole room: from a pose list in virtual time, or in real time with the bus open on a port.
+#include "sim/run/sim_run.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "sim/run/page.h"
+#include "sim/run/plots.h"
+#include "sim/files/png_file.h"
+#include "sim/run/run_loop.h"
+#include "sim/run/run_rate.h"
+#include "sim/run/run_summary.h"
+
+enum { JUDGED_FRAMES = 8, JUDGED_WITHOUT_END = 60, ERROR_LENGTH = ROOM_MESSAGE_LENGTH };
+
+/* Everything that is open during a run. */
+typedef struct {
+    const sim_run_options_t *options;
+    room_t room;
+    video_t *video;
+    pose_list_t poses;
+    image_t original;
+    sim_world_t *world;
+    pose_sender_t sender;
+    socketcand_server_t *server;
+    run_files_t files;
+    bool files_open;
+    run_record_t record;
+    run_draw_config_t draw;
+    run_pictures_t *pictures;
+    run_loop_t loop;
+    char error[ERROR_LENGTH];
+} run_t;
+
+static bool is_real(const run_t *run)
+{
+    return run->options->poses == NULL;
+}
+
+static void print_warning(void *context, const char *line)
+{
+    (void)context;
+    fprintf(stderr, "warning: %s\n", line);
+}
+
+static bool open_original(run_t *run)
+{
+    const char *path = run->options->original;
+    const camera_t *camera = &run->room.camera;
+    if (path == NULL)
+        return true;
+    if (!png_file_load(path, IMAGE_GRAY8, &run->original, run->error))
+        return false;
+    const int32_t q = run->original.width / camera->width;
+    if (q >= 1 && run->original.width == q * camera->width && run->original.height == q * camera->height)
+        return true;
+    return file_error(run->error, path, "%d x %d pixels, expected a multiple of the camera's %d x %d",
+                      run->original.width, run->original.height, camera->width, camera->height);
+}
+
+/* Room, video, poses, original: whatever is read. */
+static bool open_inputs(run_t *run)
+{
+    const sim_run_options_t *options = run->options;
+    if (!room_load(&run->room, options->room, print_warning, NULL, run->error))
+        return false;
+    if (options->poses != NULL && !pose_list_load(&run->poses, options->poses, run->error))
+        return false;
+    run->video = video_open(options->video, run->room.camera.width, run->room.camera.height, run->error);
+    return run->video != NULL && open_original(run);
+}
+
+static int64_t monotonic_us(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
+}
+
+static void plan(run_t *run)
+{
+    const sim_run_options_t *options = run->options;
+    run_loop_t *loop = &run->loop;
+    loop->refresh = options->rate_hz > 0 ? run_rate_from_hz(options->rate_hz)
+                    : is_real(run)       ? run_rate_from_hz(RUN_RATE_USUAL_HZ)
+                                         : run_rate_of_poses(&run->poses);
+    loop->start_us = is_real(run) ? monotonic_us() : 0;
+    loop->frames = options->frames > 0 ? options->frames
+                   : is_real(run)      ? INT64_MAX
+                                       : run_rate_frames(&loop->refresh, &run->poses);
+    loop->refresh.start_us += loop->start_us;
+    loop->judge_every = options->judge;
+    if (options->judge == SIM_RUN_JUDGE_USUAL)
+        loop->judge_every = loop->frames == INT64_MAX      ? JUDGED_WITHOUT_END
+                            : loop->frames < JUDGED_FRAMES ? 1
+                                                           : (int32_t)(loop->frames / JUDGED_FRAMES);
+}
+
+static bool open_world(run_t *run)
+{
+    const sim_world_config_t config = {
+        .room = &run->room,
+        .video = run->video,
+        .method = run->options->method,
+        .real = is_real(run),
+        .start_us = run->loop.start_us,
+        .refresh = run->loop.refresh,
+    };
+    run->world = sim_world_create(&config, run->error);
+    if (run->world == NULL)
+        return false;
+    sim_bus_t *bus = sim_world_bus(run->world);
+    if (is_real(run)) {
+        run->server = socketcand_server_open(run->options->bus_port, bus, run->error);
+        return run->server != NULL;
+    }
+    const pose_sender_config_t sender = {bus, &run->poses, run->room.fd, 0};
+    return pose_sender_open(&run->sender, &sender) || file_error(run->error, "bus", "has no room for a tracker");
+}
+
+static bool open_outputs(run_t *run)
+{
+    if (!run_files_open(&run->files, run->options->out, run->loop.start_us, run->error))
+        return false;
+    run->files_open = true;
+    sim_bus_set_log(sim_world_bus(run->world), run_files_log, &run->files);
+    run->draw = (run_draw_config_t){&run->room, run->options->out, run->original.data ? &run->original : NULL};
+    run->pictures = run_pictures_start(&run->draw, run->error);
+    return run->pictures != NULL;
+}
+
+static bool make_frames(run_t *run, const volatile sig_atomic_t *stop)
+{
+    run_loop_t *loop = &run->loop;
+    run->record.boards = run->room.board_count;
+    loop->room = &run->room;
+    loop->world = run->world;
+    loop->sender = is_real(run) ? NULL : &run->sender;
+    loop->server = run->server;
+    loop->record = &run->record;
+    loop->files = &run->files;
+    loop->pictures = run->pictures;
+    loop->stop = stop;
+    if (is_real(run)) {
+        printf("bus on 127.0.0.1:%d (socketcand, channel can0)\n", socketcand_server_port(run->server));
+        fflush(stdout);
+    }
+    const bool looped = is_real(run) ? run_loop_real(loop) : run_loop_virtual(loop);
+    const bool drawn = run_pictures_finish(run->pictures, &run->record, run->error);
+    run->pictures = NULL;
+    if (!looped && drawn)
+        file_error(run->error, "run", "out of memory");
+    return looped && drawn;
+}
+
+/* Tables, plots, page, and the table on stdout: each is made even when one before it has failed. */
+static bool tell(run_t *run)
+{
+    const sim_run_options_t *options = run->options;
+    const run_summary_t summary = {
+        .room = &run->room,
+        .record = &run->record,
+        .folder = options->out,
+        .room_name = options->room,
+        .video_name = options->video,
+        .poses_name = options->poses,
+        .original_name = options->original,
+        .method_name = options->method != NULL ? options->method->name : NULL,
+        .rate_hz = (double)run->loop.refresh.frames / run->loop.refresh.seconds,
+        .real = is_real(run),
+        .skipped = run->loop.skipped,
+        .poses_sent = run->sender.sent,
+        .bus = sim_bus_stats(sim_world_bus(run->world)),
+    };
+    bool ok = run_files_close(&run->files, &run->record, &run->room, run->error);
+    run->files_open = false;
+    ok = page_write(&summary, run->error) && ok;
+    run_summary_print(&summary, stdout);
+    fflush(stdout);
+    return plots_write(&summary, run->error) && ok;
+}
+
+static void close_run(run_t *run)
+{
+    char error[FILE_ERROR_LENGTH];
+    (void)run_pictures_finish(run->pictures, &run->record, error);
+    if (run->files_open)
+        (void)run_files_close(&run->files, &run->record, &run->room, error);
+    socketcand_server_close(run->server);
+    sim_world_destroy(run->world);
+    run_record_free(&run->record);
+    free(run->original.data);
+    pose_list_free(&run->poses);
+    video_close(run->video);
+    free(run);
+}
+
+int sim_run(const sim_run_options_t *options, const volatile sig_atomic_t *stop)
+{
+    run_t *run = calloc(1, sizeof *run);
+    if (run == NULL) {
+        fprintf(stderr, "wallwarp-sim run: out of memory\n");
+        return 1;
+    }
+    run->options = options;
+    bool ok = open_inputs(run);
+    if (ok)
+        plan(run);
+    ok = ok && open_world(run) && open_outputs(run) && make_frames(run, stop) && tell(run);
+    if (!ok)
+        fprintf(stderr, "wallwarp-sim run: %s\n", run->error);
+    close_run(run);
+    return ok ? 0 : 1;
+}

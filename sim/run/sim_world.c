@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// A room in one process: every board with its devices and the real firmware, on one simulated bus.
+#include "sim/run/sim_world.h"
+
+#include <stdlib.h>
+#include <time.h>
+
+#include "sim/devices/sim_camera.h"
+#include "sim/devices/sim_clock.h"
+#include "sim/devices/sim_display.h"
+#include "sim/devices/sim_gpio.h"
+#include "sim/devices/sim_watchdog.h"
+
+typedef struct {
+    hal_board_t devices;
+    projector_t *projector;
+    int64_t step_time_us;
+} node_t;
+
+struct sim_world {
+    sim_world_config_t config;
+    sim_bus_t *bus;
+    node_t node[ROOM_MAX_BOARDS];
+};
+
+static int64_t monotonic_us(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
+}
+
+static bool open_devices(sim_world_t *world, int32_t index, char error[FILE_ERROR_LENGTH])
+{
+    const sim_world_config_t *config = &world->config;
+    const room_board_t *board = &config->room->board[index];
+    hal_board_t *devices = &world->node[index].devices;
+    devices->can = sim_bus_attach(world->bus);
+    if (devices->can == NULL)
+        return file_error(error, board->name, "no room on the bus, or out of memory");
+    const sim_clock_settings_t clock = {.real = config->real, .epoch_us = config->start_us};
+    devices->clock = sim_clock_create(&clock, error);
+    if (devices->clock == NULL)
+        return false;
+    const video_info_t *video = video_info(config->video);
+    const sim_camera_settings_t camera = {
+        .video = config->video,
+        .width = config->room->camera.width,
+        .height = config->room->camera.height,
+        .rate = {config->start_us, video->rate_frames, video->rate_seconds},
+        .seed = (uint32_t)config->seed + (uint32_t)index,
+    };
+    devices->camera = sim_camera_create(&camera, error);
+    const sim_display_settings_t display = {
+        .width = board->wall.panel_width,
+        .height = board->wall.panel_height,
+        .clock = devices->clock,
+        .blanks = config->refresh,
+    };
+    devices->display = devices->camera == NULL ? NULL : sim_display_create(&display, error);
+    devices->gpio = devices->display == NULL ? NULL : sim_gpio_create(devices->clock, error);
+    devices->watchdog =
+        devices->gpio == NULL ? NULL : sim_watchdog_create(devices->clock, SIM_WORLD_WATCHDOG_US, error);
+    return devices->watchdog != NULL;
+}
+
+static bool open_node(sim_world_t *world, int32_t index, char error[FILE_ERROR_LENGTH])
+{
+    const room_t *room = world->config.room;
+    room_board_t board = room->board[index];
+    if (world->config.method != NULL)
+        board.method = world->config.method;
+    if (!open_devices(world, index, error))
+        return false;
+    node_t *node = &world->node[index];
+    node->projector = calloc(1, sizeof *node->projector);
+    if (node->projector == NULL)
+        return file_error(error, board.name, "out of memory: a projector takes %zu MB", sizeof(projector_t) >> 20);
+    projector_init(node->projector, room, &board, &node->devices, &warp_kernels_scalar);
+    return true;
+}
+
+sim_world_t *sim_world_create(const sim_world_config_t *config, char error[FILE_ERROR_LENGTH])
+{
+    sim_world_t *world = calloc(1, sizeof *world);
+    if (world == NULL) {
+        file_error(error, "room", "out of memory");
+        return NULL;
+    }
+    world->config = *config;
+    const sim_bus_config_t bus = {
+        .bitrate = config->room->bitrate,
+        .data_bitrate = config->room->data_bitrate,
+        .fd = config->room->fd,
+        .seed = config->seed,
+        .start_us = config->start_us,
+    };
+    world->bus = sim_bus_create(&bus);
+    bool ok = world->bus != NULL;
+    if (!ok)
+        file_error(error, "can", "bit rates %d and %d are out of range, or out of memory", bus.bitrate,
+                   bus.data_bitrate);
+    for (int32_t i = 0; ok && i < config->room->board_count; i++)
+        ok = open_node(world, i, error);
+    if (ok)
+        return world;
+    sim_world_destroy(world);
+    return NULL;
+}
+
+void sim_world_destroy(sim_world_t *world)
+{
+    if (world == NULL)
+        return;
+    for (int32_t i = world->config.room->board_count - 1; i >= 0; i--) {
+        node_t *node = &world->node[i];
+        free(node->projector);
+        sim_watchdog_destroy(node->devices.watchdog);
+        sim_gpio_destroy(node->devices.gpio);
+        sim_display_destroy(node->devices.display);
+        sim_camera_destroy(node->devices.camera);
+        sim_clock_destroy(node->devices.clock);
+    }
+    sim_bus_destroy(world->bus);
+    free(world);
+}
+
+sim_bus_t *sim_world_bus(sim_world_t *world)
+{
+    return world->bus;
+}
+
+const hal_board_t *sim_world_devices(const sim_world_t *world, int32_t board)
+{
+    return &world->node[board].devices;
+}
+
+const projector_t *sim_world_projector(const sim_world_t *world, int32_t board)
+{
+    return world->node[board].projector;
+}
+
+bool sim_world_step(sim_world_t *world, int64_t now_us, char error[FILE_ERROR_LENGTH])
+{
+    bool ok = true;
+    sim_bus_advance(world->bus, now_us);
+    for (int32_t i = 0; i < world->config.room->board_count; i++) {
+        const hal_board_t *devices = &world->node[i].devices;
+        if (!world->config.real)
+            sim_clock_set_us(devices->clock, now_us);
+        sim_display_advance(devices->display, now_us);
+        ok &= sim_camera_advance(devices->camera, now_us, error);
+    }
+    for (int32_t i = 0; i < world->config.room->board_count; i++) {
+        const int64_t begin_us = monotonic_us();
+        projector_step(world->node[i].projector);
+        world->node[i].step_time_us = monotonic_us() - begin_us;
+    }
+    return ok;
+}
+
+const image_t *sim_world_shown(sim_world_t *world, int32_t board, int64_t blank_us)
+{
+    hal_display_t *display = world->node[board].devices.display;
+    sim_display_advance(display, blank_us);
+    return sim_display_shown(display);
+}
+
+int64_t sim_world_step_time_us(const sim_world_t *world, int32_t board)
+{
+    return world->node[board].step_time_us;
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// A room in one process: every board with its devices and the real firmware, on one simulated bus.
+#ifndef SIM_SIM_WORLD_H
+#define SIM_SIM_WORLD_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "firmware/projector.h"
+#include "firmware/room.h"
+#include "sim/files/file_io.h"
+#include "sim/bus/sim_bus.h"
+#include "sim/devices/sim_rate.h"
+#include "sim/files/video_file.h"
+
+typedef struct sim_world sim_world_t;
+
+enum { SIM_WORLD_WATCHDOG_US = 2000000 };
+
+typedef struct {
+    const room_t *room;          /**< must outlive the world */
+    video_t *video;              /**< what every camera plays; must outlive the world */
+    const warp_method_t *method; /**< of every board, in place of the room's; NULL for the room's */
+    bool real;                   /**< clocks run by themselves (CLOCK_MONOTONIC); else in virtual time */
+    int64_t start_us;            /**< now, when the world begins: the cameras' first picture */
+    sim_rate_t refresh;          /**< vertical blanks of all displays; beat 0 is after start_us */
+    uint64_t seed;               /**< of everything random, when faults are asked for */
+} sim_world_config_t;
+
+/**
+ * Make bus, devices and projectors. Uses the heap; about 48 MB of address space per board, mostly untouched.
+ *
+ * @return NULL with the reason in error.
+ */
+sim_world_t *sim_world_create(const sim_world_config_t *config, char error[FILE_ERROR_LENGTH]);
+
+/** NULL is allowed. */
+void sim_world_destroy(sim_world_t *world);
+
+/** @return The bus, to attach nodes to and to advance between steps. Its controllers 0 to K - 1 are the boards. */
+sim_bus_t *sim_world_bus(sim_world_t *world);
+
+/** @return The board's devices, in the order of the room file: for faults on demand. */
+const hal_board_t *sim_world_devices(const sim_world_t *world, int32_t board);
+
+/** @return The board's projector, to look at. */
+const projector_t *sim_world_projector(const sim_world_t *world, int32_t board);
+
+/**
+ * One refresh: bring bus, clocks, displays and cameras to now_us, then let every board do one projector_step(), in
+ * the order of the room file.
+ *
+ * @param      now_us  Just after a vertical blank; never less than at the last call.
+ * @param[out] error   On failure: a camera could not read its video.
+ * @return false when a picture was lost because the video could not be read; the step was made all the same.
+ */
+bool sim_world_step(sim_world_t *world, int64_t now_us, char error[FILE_ERROR_LENGTH]);
+
+/**
+ * What the board's wall shows from a vertical blank on. Call it after the step that drew the picture.
+ *
+ * @param blank_us  The blank; all earlier ones are performed too.
+ * @return NULL while the wall is dark. Valid until the next step.
+ */
+const image_t *sim_world_shown(sim_world_t *world, int32_t board, int64_t blank_us);
+
+/** @return Real time that the board's newest projector_step() took on this machine, us. */
+int64_t sim_world_step_time_us(const sim_world_t *world, int32_t board);
+
+#endif

@@ -1,0 +1,280 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# wallwarp-sim, wallwarp and wallwarp-pose from end to end: what they write, and every bad command line.
+# Usage, from the tree's root: tests/sim/run/test_programs.sh BUILD_FOLDER
+set -u
+build=${1:?usage: test_programs.sh BUILD_FOLDER}
+picture=tests/images/studio_480x270.png
+scratch=$(mktemp -d "${TMPDIR:-/tmp}/wallwarp-programs.XXXXXX") || exit 1
+started=
+trap 'for id in $started; do kill -KILL "$id" 2>/dev/null; done; rm -rf "$scratch"' EXIT
+passed=0
+failed=0
+
+# check NAME STATUS: note a result; STATUS 0 is good.
+check() {
+    if [ "$2" -eq 0 ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAIL $1"
+    fi
+}
+
+# refuses STATUS TEXT COMMAND ...: the command must end with STATUS and say TEXT on stderr.
+refuses() {
+    status=$1
+    text=$2
+    shift 2
+    timeout 60 "$@" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
+    found=$?
+    [ "$found" -eq "$status" ] && grep -qF -- "$text" "$scratch/stderr"
+    good=$?
+    [ "$good" -eq 0 ] || { echo "status $found, said:"; cat "$scratch/stderr"; }
+    check "refuses: $* ($status, $text)" "$good"
+}
+
+write_room() {
+    cat <<END
+camera: {width: 480, height: 270, focal_px: [300, 300], principal_px: [240, 135]}
+boards:
+  - name: front
+    node: 1
+    projector: {width: 160, height: 90}
+    wall: {corners_mm: [[-2000, -1125, 2000], [2000, -1125, 2000], [2000, 1125, 2000], [-2000, 1125, 2000]]}
+  - name: left
+    node: 2
+    projector: {width: 160, height: 90}
+    border: [20, 40, 60]
+    wall: {corners_mm: [[-2000, -1125, -2000], [-2000, -1125, 2000], [-2000, 1125, 2000], [-2000, 1125, -2000]]}
+can: {bitrate: 500000, data_bitrate: 2000000, fd: $1}
+END
+}
+
+# write_poses COUNT: COUNT poses at 30 Hz; they only move, so that rounding on the bus does not change them.
+write_poses() {
+    echo time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz
+    awk -v count="$1" 'BEGIN { for (n = 0; n < count; n++)
+        printf "%.6f,%.2f,%.2f,%.2f,1,0,0,0\n", 10 + n / 30, -900 + 37.25 * n, -100 + 11.5 * n, -700 + 20.75 * n }'
+}
+
+# same_as_warp DIR FRAME BOARD [OPTION ...]: the run's picture is the one wallwarp-sim warp makes for the pose used.
+same_as_warp() {
+    dir=$1
+    frame=$2
+    board=$3
+    shift 3
+    pose=$(awk -F, -v n="$frame" -v b="$board" '$1 == n && $3 == b { print $5 }' "$dir/frames.csv")
+    [ -n "$pose" ] && "$build/wallwarp-sim" warp "$scratch/fd.yaml" --board "$board" --pose "$pose" --in $picture \
+        --out "$scratch/warp.png" "$@" && cmp "$scratch/warp.png" "$dir/${board}_$(printf %05d "$frame").png"
+}
+
+run() {
+    timeout 120 "$build/wallwarp-sim" run "$@" >"$scratch/stdout" 2>"$scratch/stderr"
+}
+
+test_virtual_runs() {
+    for kind in fd classic; do
+        out=$scratch/$kind
+        run "$scratch/$kind.yaml" --video $picture --poses "$scratch/ten.csv" --out "$out"
+        check "$kind run" $?
+        set -- "$out"/front_0000?.png "$out"/left_0000?.png "$out"/viewer_0000?.png "$out"/uncompensated_0000?.png
+        [ $# -eq 40 ]
+        check "$kind run writes every picture" $?
+        [ "$(grep -c ,running, "$out/frames.csv")" -eq 20 ]
+        check "$kind run is running in every frame" $?
+        awk -F, 'NR > 1 { split($5, p, " "); if (p[1] != -900 + 37.25 * $1) bad = 1 } END { exit bad || NR != 21 }' \
+            "$out/frames.csv"
+        check "$kind run: frame n uses pose n" $?
+        for frame in 0 4 9; do
+            same_as_warp "$out" "$frame" front && same_as_warp "$out" "$frame" left
+            check "$kind run: frame $frame is what warp makes" $?
+        done
+        awk -F, 'NR > 1 && !($3 > 15 && $3 <= $4 && $4 < 60 && $5 == "") { bad = 1 } END { exit bad || NR < 9 }' \
+            "$out/psnr.csv"
+        check "$kind run: PSNR is below its limit" $?
+        for file in index.html psnr.svg step.svg time.svg bus.svg; do
+            [ -s "$out/$file" ]
+            check "$kind run writes $file" $?
+        done
+        grep -q "^page: $out/index.html" "$scratch/stdout"
+        check "$kind run prints the page's path" $?
+    done
+    [ "$(grep -c ' can0 100##1' "$scratch/fd/bus.log")" -eq 10 ]
+    check "the log has a pose frame for each pose" $?
+    [ "$(grep -c ' can0 11[012]#' "$scratch/classic/bus.log")" -eq 30 ]
+    check "the log has three frames for each pose set" $?
+}
+
+test_repeated_run() {
+    run "$scratch/fd.yaml" --video $picture --poses "$scratch/ten.csv" --out "$scratch/again"
+    same=0
+    for path in "$scratch"/fd/*.png "$scratch"/fd/frames.csv "$scratch"/fd/psnr.csv "$scratch"/fd/bus.log; do
+        cmp "$path" "$scratch/again/${path##*/}" || same=1
+    done
+    check "two runs write the same bytes" $same
+    run "$scratch/fd.yaml" --video pattern --poses "$scratch/ten.csv" --out "$scratch/again/" --frames 2
+    cmp -s "$scratch/fd/front_00000.png" "$scratch/again/front_00000.png"
+    [ $? -eq 1 ] && [ "$(wc -l <"$scratch/again/frames.csv")" -eq 5 ]
+    check "a folder that is not empty is written over" $?
+}
+
+test_options() {
+    run "$scratch/fd.yaml" --video $picture --poses "$scratch/one.csv" --out "$scratch/one/deep" --judge 0 &&
+        [ -e "$scratch/one/deep/front_00000.png" ] && [ ! -e "$scratch/one/deep/front_00001.png" ] &&
+        [ "$(wc -l <"$scratch/one/deep/psnr.csv")" -eq 1 ]
+    check "a single pose makes one frame, --judge 0 judges none" $?
+    run "$scratch/fd.yaml" --video $picture --poses "$scratch/ten.csv" --out "$scratch/fast" --rate 60 --frames 84 \
+        --method none+nearest --original tests/images/studio_1920x1080.png --judge 9
+    check "rate, frames, method, original, judge" $?
+    same_as_warp "$scratch/fast" 8 front --method none+nearest
+    check "--method is every board's" $?
+    awk -F, '$1 == 83 { print $4 }' "$scratch/fast/frames.csv" | grep -q safe &&
+        awk -F, '$1 == 40 { print $4 }' "$scratch/fast/frames.csv" | grep -q holding
+    check "a run beyond the list holds, then goes safe" $?
+    awk -F, 'NR > 1 && !($5 > 10 && $5 <= $6) { bad = 1 } END { exit bad || NR < 5 }' "$scratch/fast/psnr.csv"
+    check "PSNR against the original is below its limit" $?
+    (PATH=/nonexistent run_without_path)
+    check "without gnuplot: an error that names its package, and the page all the same" $?
+}
+
+run_without_path() {
+    "$build/wallwarp-sim" run "$scratch/fd.yaml" --video $picture --poses "$scratch/one.csv" --out "$scratch/bare" \
+        >"$scratch/stdout" 2>"$scratch/stderr"
+    found=$?
+    [ $found -eq 1 ] && [ -s "$scratch/bare/index.html" ] &&
+        while read -r line; do case $line in *gnuplot-nox*) return 0 ;; esac; done <"$scratch/stderr"
+    return 1
+}
+
+# Wait until a file has a line that matches; print what is between "127.0.0.1:" and the next space.
+port_in() {
+    tries=0
+    while [ $tries -lt 200 ]; do
+        port=$(sed -n 's/.*bus on 127\.0\.0\.1:\([0-9]*\) .*/\1/p' "$1" 2>/dev/null)
+        [ -n "$port" ] && echo "$port" && return 0
+        sleep 0.1
+        tries=$((tries + 1))
+    done
+    return 1
+}
+
+test_live_run() {
+    "$build/wallwarp-sim" run "$scratch/classic.yaml" --video $picture --bus 0 --out "$scratch/live" \
+        >"$scratch/live.out" 2>"$scratch/live.err" &
+    id=$!
+    started="$started $id"
+    port=$(port_in "$scratch/live.out")
+    check "a live run tells its port" $?
+    refuses 1 "$port" "$build/wallwarp-sim" run "$scratch/fd.yaml" --video pattern --bus "$port" --out "$scratch/no"
+    timeout 60 "$build/wallwarp-pose" send --bus "127.0.0.1:$port" "$scratch/ten.csv"
+    check "poses are sent into it" $?
+    sleep 0.3
+    kill -INT "$id"
+    wait "$id"
+    check "it ends well on SIGINT" $?
+    frame=$(awk -F, '$4 == "running" { n = $1 } END { print n }' "$scratch/live/frames.csv")
+    awk -F, -v n="$frame" '$1 == n { print $5 }' "$scratch/live/frames.csv" | grep -q '^-564\.75'
+    check "the boards have used the last pose" $?
+    same_as_warp "$scratch/live" "$frame" front && same_as_warp "$scratch/live" "$frame" left
+    check "they show it" $?
+    [ -s "$scratch/live/index.html" ] && grep -q ',waiting,,' "$scratch/live/frames.csv"
+    check "the page is written, and the boards have waited before" $?
+    run "$scratch/classic.yaml" --video pattern --bus 0 --frames 5 --out "$scratch/five" &&
+        [ "$(wc -l <"$scratch/five/frames.csv")" -eq 11 ]
+    check "a live run ends after its frames" $?
+}
+
+test_firmware() {
+    "$build/wallwarp" "$scratch/classic.yaml" --node 1 --can 0 --camera $picture --display "$scratch/display" \
+        2>"$scratch/wallwarp.err" &
+    id=$!
+    started="$started $id"
+    port=$(port_in "$scratch/wallwarp.err")
+    check "wallwarp opens its bus" $?
+    refuses 1 "$port" "$build/wallwarp" "$scratch/classic.yaml" --node 2 --can "$port"
+    timeout 60 "$build/wallwarp-pose" send --bus "127.0.0.1:$port" "$scratch/one.csv"
+    check "it takes a pose" $?
+    sleep 1.5
+    kill -TERM "$id"
+    wait "$id"
+    check "it ends well on SIGTERM" $?
+    [ -s "$scratch/display/display.png" ]
+    check "it writes what it shows" $?
+    refuses 2 "ROOM" "$build/wallwarp"
+    refuses 2 "--node" "$build/wallwarp" "$scratch/fd.yaml"
+    refuses 2 "1 to 63" "$build/wallwarp" "$scratch/fd.yaml" --node 64
+    refuses 2 "1 to 63" "$build/wallwarp" "$scratch/fd.yaml" --node 1x
+    refuses 2 "one room file" "$build/wallwarp" "$scratch/fd.yaml" "$scratch/fd.yaml" --node 1
+    refuses 1 "no board has node 9" "$build/wallwarp" "$scratch/fd.yaml" --node 9
+    refuses 1 "missing.yaml" "$build/wallwarp" "$scratch/missing.yaml" --node 1
+    refuses 1 "missing.png" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --can 0 --camera "$scratch/missing.png"
+    refuses 1 "port" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --can vcan0
+    refuses 1 "folder" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --can 0 --display "$scratch/fd.yaml/x"
+}
+
+test_bad_runs() {
+    set -- "$build/wallwarp-sim" run "$scratch/fd.yaml" --out "$scratch/bad"
+    refuses 2 "expected run or warp" "$build/wallwarp-sim" runs
+    refuses 2 "Usage" "$build/wallwarp-sim"
+    refuses 2 "--video" "$@" --poses "$scratch/ten.csv"
+    refuses 2 "either --poses CSV or --bus PORT" "$@" --video pattern
+    refuses 2 "either --poses CSV or --bus PORT" "$@" --video pattern --poses "$scratch/ten.csv" --bus 0
+    refuses 2 "0 to 65535" "$@" --video pattern --bus 65536
+    refuses 2 "--frames" "$@" --video pattern --poses "$scratch/ten.csv" --frames 0
+    refuses 2 "--frames" "$@" --video pattern --poses "$scratch/ten.csv" --frames 3.5
+    refuses 2 "mean+cubic" "$@" --video pattern --poses "$scratch/ten.csv" --method best
+    refuses 2 "--rate" "$@" --video pattern --poses "$scratch/ten.csv" --rate nan
+    refuses 2 "one room file" "$@" "$scratch/fd.yaml" --video pattern --poses "$scratch/ten.csv"
+    refuses 2 "--nonsense" "$@" --nonsense
+    refuses 1 "missing.csv" "$@" --video pattern --poses "$scratch/missing.csv"
+    refuses 1 "missing.png" "$@" --video "$scratch/missing.png" --poses "$scratch/ten.csv"
+    refuses 1 "480" "$@" --video tests/images/coffee_510x290.png --poses "$scratch/ten.csv"
+    refuses 1 "ten.csv" "$@" --video "$scratch/ten.csv" --poses "$scratch/ten.csv"
+    refuses 1 "multiple" "$@" --video pattern --poses "$scratch/one.csv" --original tests/images/coffee_510x290.png
+    refuses 1 "qw qx qy qz" "$@" --video pattern --poses "$scratch/zero.csv"
+    refuses 1 "folder" "$build/wallwarp-sim" run "$scratch/fd.yaml" --video pattern --poses "$scratch/one.csv" \
+        --out "$scratch/fd.yaml"
+    refuses 1 "folder" "$build/wallwarp-sim" run "$scratch/fd.yaml" --video pattern --poses "$scratch/one.csv" \
+        --out "$scratch/fd.yaml/deeper"
+    refuses 1 "missing.yaml" "$build/wallwarp-sim" run "$scratch/missing.yaml" --video pattern \
+        --poses "$scratch/one.csv" --out "$scratch/bad"
+    [ ! -e "$scratch/bad" ]
+    check "nothing is written for a run that can't begin" $?
+}
+
+test_bad_warps() {
+    set -- "$build/wallwarp-sim" warp "$scratch/fd.yaml" --out "$scratch/bad.png"
+    refuses 2 "--board" "$@" --pose "0 0 0 1 0 0 0" --in $picture
+    refuses 2 "left" "$@" --board back --pose "0 0 0 1 0 0 0" --in $picture
+    refuses 2 "pose" "$@" --board front --pose "0 0 0 1 0 0" --in $picture
+    refuses 2 "nan" "$@" --board front --pose "0 0 nan 1 0 0 0" --in $picture
+    refuses 2 "mean+cubic" "$@" --board front --pose "0 0 0 1 0 0 0" --in $picture --method x
+    refuses 1 "480" "$@" --board front --pose "0 0 0 1 0 0 0" --in tests/images/coffee_510x290.png
+    refuses 1 "missing.png" "$@" --board front --pose "0 0 0 1 0 0 0" --in "$scratch/missing.png"
+    [ ! -e "$scratch/bad.png" ]
+    check "no picture is written after an error" $?
+    "$build/wallwarp-sim" warp "$scratch/fd.yaml" --board front --pose "-50 0 -100 1 0 0 0" --in $picture \
+        --out "$scratch/minus.png"
+    check "a pose may begin with a minus sign" $?
+    for program in "wallwarp" "wallwarp-sim" "wallwarp-sim run" "wallwarp-sim warp"; do
+        # shellcheck disable=SC2086 # a program and its command are two words
+        "$build"/$program --help >"$scratch/stdout" && grep -q Usage "$scratch/stdout"
+        check "$program --help" $?
+    done
+}
+
+write_room true >"$scratch/fd.yaml"
+write_room false >"$scratch/classic.yaml"
+write_poses 10 >"$scratch/ten.csv"
+write_poses 1 >"$scratch/one.csv"
+printf 'time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz\n0,0,0,0,0,0,0,0\n' >"$scratch/zero.csv"
+test_virtual_runs
+test_repeated_run
+test_options
+test_live_run
+test_firmware
+test_bad_runs
+test_bad_warps
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
