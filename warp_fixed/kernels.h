@@ -51,7 +51,8 @@ typedef void resample_window_fn(uint8_t *restrict out, const window_t *window, c
                                 const int32_t *restrict y_q18, int32_t count);
 
 enum {
-    PREFILTER_MAX_RADIUS = 68, /**< 4 sigma at the largest k, 64 */
+    PREFILTER_MAX_RADIUS = 512, /**< of butter at the largest k, 64 */
+    PREFILTER_OFFSET = 128 * 128,
     PREFILTER_SHORT_RADIUS = 3 /**< up to here the first pass has 8-bit weights */
 };
 
@@ -66,14 +67,15 @@ typedef struct {
 /**
  * First pass of the prefilter: one output row from 2 radius + 1 rows, column by column.
  *
- * @param[out] v      count sums, each (sum first * byte + half) >> first_shift.
+ * @param[out] v      count sums, each ((sum first * byte + half) >> first_shift) - PREFILTER_OFFSET: less its middle,
+ * so that what a filter overshoots fits 16 bits too.
  * @param      rows   rows[0] to rows[2 radius], each of count bytes.
  * @param      count  Bytes of a row: width times channels.
  */
 typedef void prefilter_columns_fn(int16_t *restrict v, const uint8_t *const *rows, const fir_t *fir, int32_t count);
 
 /**
- * Second pass: one row of bytes from the first pass's sums.
+ * Second pass: one row of bytes from the first pass's sums, pixel_from_sum(sum second * (v + PREFILTER_OFFSET)).
  *
  * @param[out] out       count bytes.
  * @param      v         v[-radius * channels] to v[count + radius * channels - 1] are read.

@@ -11,6 +11,12 @@ const warp_method_t warp_methods[WARP_METHODS] = {
     {"gauss+nearest", WARP_FILTER_GAUSS, WARP_NEAREST},
     {"gauss+linear", WARP_FILTER_GAUSS, WARP_LINEAR},
     {"gauss+cubic", WARP_FILTER_GAUSS, WARP_CUBIC},
+    {"kaiser+nearest", WARP_FILTER_KAISER, WARP_NEAREST},
+    {"kaiser+linear", WARP_FILTER_KAISER, WARP_LINEAR},
+    {"kaiser+cubic", WARP_FILTER_KAISER, WARP_CUBIC},
+    {"butter+nearest", WARP_FILTER_BUTTER, WARP_NEAREST},
+    {"butter+linear", WARP_FILTER_BUTTER, WARP_LINEAR},
+    {"butter+cubic", WARP_FILTER_BUTTER, WARP_CUBIC},
     {"area", WARP_FILTER_NONE, WARP_AREA},
     {"mean+cubic", WARP_FILTER_NONE, WARP_MEAN_CUBIC},
 };

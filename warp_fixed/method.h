@@ -5,7 +5,7 @@
 
 #include <stdbool.h>
 
-typedef enum { WARP_FILTER_NONE, WARP_FILTER_GAUSS } warp_filter_t;
+typedef enum { WARP_FILTER_NONE, WARP_FILTER_GAUSS, WARP_FILTER_KAISER, WARP_FILTER_BUTTER } warp_filter_t;
 
 typedef enum {
     WARP_NEAREST,   /**< the picture pixel under the point */
@@ -22,7 +22,7 @@ typedef struct {
     warp_resampler_t resampler;
 } warp_method_t;
 
-enum { WARP_METHODS = 8 };
+enum { WARP_METHODS = 14 };
 
 /** Every method of this build. The last one is the default. */
 extern const warp_method_t warp_methods[WARP_METHODS];

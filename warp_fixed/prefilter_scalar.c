@@ -10,17 +10,22 @@ void prefilter_columns_scalar(int16_t *restrict v, const uint8_t *const *rows, c
         int32_t sum = fir->first[0] * rows[r][x];
         for (int32_t d = 1; d <= r; d++)
             sum += fir->first[d] * (rows[r - d][x] + rows[r + d][x]);
-        v[x] = (int16_t)((sum + half) >> fir->first_shift);
+        v[x] = (int16_t)(((sum + half) >> fir->first_shift) - PREFILTER_OFFSET);
     }
 }
 
+/*
+ * |sum second| <= 1.8 * 32767 and |v| <= 1.8 * 2^14 (kaiser, the worst), so sum < 2^31; the offset's share is added
+ * after the last 8 bits are gone, which changes nothing, since it and the rounding have none set there.
+ */
 void prefilter_row_scalar(uint8_t *restrict out, const int16_t *restrict v, const fir_t *fir, int32_t count,
                           int32_t channels)
 {
+    const int32_t middle = (PREFILTER_OFFSET * SECOND_SUM + (1 << (SUM_SHIFT - 1))) >> 8;
     for (int32_t x = 0; x < count; x++) {
         int32_t sum = fir->second[0] * v[x];
         for (int32_t d = 1; d <= fir->radius; d++)
             sum += fir->second[d] * (v[x - d * channels] + v[x + d * channels]);
-        out[x] = pixel_from_sum(sum);
+        out[x] = (uint8_t)clamp_i32(((sum >> 8) + middle) >> (SUM_SHIFT - 8), 0, 255);
     }
 }

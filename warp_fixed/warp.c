@@ -110,10 +110,9 @@ bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *repo
     const footprint_step_t step = footprint_step(homography);
     grid_from_homography(&warp->grid, homography);
     levels_begin(&warp->levels);
-    frame_t frame = {.warp = warp, .kernels = kernels, .panel = panel, .picture = *picture};
-    if (warp->method.filter == WARP_FILTER_GAUSS)
-        frame.picture =
-            prefilter_picture(&warp->prefilter, kernels, picture, warp->step_all ? step.all_q16 : step.in_q16);
+    frame_t frame = {.warp = warp, .kernels = kernels, .panel = panel};
+    frame.picture = prefilter_picture(&warp->prefilter, kernels, picture, warp->method.filter,
+                                      warp->step_all ? step.all_q16 : step.in_q16);
 
     int32_t lit = 0;
     for (int32_t j = 0; j < panel->height; j++) {
