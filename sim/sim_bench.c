@@ -7,16 +7,19 @@
 #include <sys/stat.h>
 
 #include "hal/hal_board.h"
-#include "sim/files/png_file.h"
 #include "sim/bus/sim_bus.h"
+#include "sim/bus/socketcand_server.h"
 #include "sim/devices/sim_camera.h"
 #include "sim/devices/sim_clock.h"
 #include "sim/devices/sim_display.h"
 #include "sim/devices/sim_gpio.h"
 #include "sim/devices/sim_watchdog.h"
-#include "sim/bus/socketcand_server.h"
+#include "sim/files/png_file.h"
 
 enum { REFRESH_HZ = 60, WATCHDOG_US = 2000000, PICTURE_PERIOD_US = 1000000, LAST_PORT = 65535, BOARD_ERROR = 256 };
+
+_Static_assert((int)BOARD_ERROR >= (int)FILE_ERROR_LENGTH && (int)BOARD_ERROR >= (int)SOCKETCAND_ERROR_LENGTH,
+               "what the devices say of a failure must fit what hal_board_open() is given");
 
 typedef struct {
     hal_board_t devices;
@@ -76,8 +79,10 @@ static bool open_bus(bench_t *b, const board_table_t *table, const hal_board_nee
         return file_error(error, "can", "%d and %d bit/s are out of range, or out of memory", needs->bitrate,
                           needs->data_bitrate);
     b->devices.can = sim_bus_attach(b->bus);
+    if (b->devices.can == NULL)
+        return file_error(error, "can", "out of memory");
     b->server = socketcand_server_open((int)port, b->bus, error);
-    if (b->devices.can == NULL || b->server == NULL)
+    if (b->server == NULL)
         return false;
     fprintf(stderr, "can: bus on 127.0.0.1:%d (socketcand, channel can0)\n", socketcand_server_port(b->server));
     return true;

@@ -5,8 +5,7 @@
 
 #include "sim/eval/eval_grid.h"
 #include "sim/eval/eval_psnr.h"
-
-enum { BAD_USAGE = 2 };
+#include "sim/program.h"
 
 typedef int command_fn(int argc, char **argv);
 
@@ -62,7 +61,7 @@ int main(int argc, char **argv)
                "psnr  how well each method's wall matches the picture\n\n"
                "'wallwarp-eval COMMAND --help' tells more. Exit status: 0 done, 1 failed, 2 bad usage.",
     };
-    argp_err_exit_status = BAD_USAGE;
+    argp_err_exit_status = PROGRAM_BAD_USAGE;
     chosen_t chosen = {0};
     argp_parse(&argp, argc, argv, ARGP_IN_ORDER, NULL, &chosen);
     char **words = argv + chosen.at;

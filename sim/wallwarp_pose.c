@@ -8,8 +8,9 @@
 #include "sim/pose/pose_link.h"
 #include "sim/pose/pose_list.h"
 #include "sim/pose/pose_send.h"
+#include "sim/program.h"
 
-enum { EXIT_DONE = 0, EXIT_FAILED = 1, EXIT_USAGE = 2, LONG_LIST_US = 2000000 };
+enum { LONG_LIST_US = 2000000 };
 
 typedef struct {
     const char *bus, *csv;
@@ -55,49 +56,48 @@ static int send_list(const send_options_t *options, const pose_list_t *list)
     pose_link_t link;
     if (!pose_send_check(list, options->fd, error)) {
         fprintf(stderr, "wallwarp-pose: %s: %s\n", options->csv, error);
-        return EXIT_FAILED;
+        return PROGRAM_FAILED;
     }
     if (!pose_link_open(&link, options->bus, options->fd, error)) {
         fprintf(stderr, "wallwarp-pose: %s\n", error);
-        return EXIT_FAILED;
+        return PROGRAM_FAILED;
     }
     const bool sent = pose_send_list(&link, list, options->fd, isatty(STDERR_FILENO) && is_long(list), error);
     pose_link_close(&link);
     if (!sent) {
         fprintf(stderr, "wallwarp-pose: %s\n", error);
-        return EXIT_FAILED;
+        return PROGRAM_FAILED;
     }
     printf("%zu poses sent to %s\n", list->count, options->bus);
-    return EXIT_DONE;
+    return PROGRAM_DONE;
 }
 
 static int run_send(int argc, char **argv)
 {
-    static const struct argp_option OPTIONS[] = {
+    static const struct argp_option option_table[] = {
         {"bus", 'b', "BUS", 0,
          "A SocketCAN interface such as can0, or HOST:PORT of a simulator (wallwarp-sim run --bus PORT)", 0},
         {"fd", 'f', NULL, 0,
          "One CAN FD frame of 32 bytes per pose, instead of three classic frames; not with HOST:PORT", 0},
-        {0}};
-    static const struct argp ARGP = {
-        OPTIONS,
-        parse_send,
-        "CSV",
-        "Send a pose list once, in real time.\v"
-        "CSV is a pose list with the header time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz. The messages are those of "
-        "firmware/wallwarp.dbc, viewer 0. The exit status is 0 when all is sent, 1 when something failed, 2 for bad "
-        "usage.",
-        NULL,
-        NULL,
-        NULL};
+        {0},
+    };
+    static const struct argp argp = {
+        .options = option_table,
+        .parser = parse_send,
+        .args_doc = "CSV",
+        .doc = "Send a pose list once, in real time.\v"
+               "CSV is a pose list with the header time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz. The messages are those of "
+               "firmware/wallwarp.dbc, viewer 0. The exit status is 0 when all is sent, 1 when something failed, 2 for "
+               "bad usage.",
+    };
     send_options_t options = {.bus = NULL};
-    argp_parse(&ARGP, argc, argv, 0, NULL, &options);
+    argp_parse(&argp, argc, argv, 0, NULL, &options);
 
     pose_list_t list;
     char error[POSE_LIST_MESSAGE_LENGTH];
     if (!pose_list_load(&list, options.csv, error)) {
         fprintf(stderr, "wallwarp-pose: %s\n", error);
-        return EXIT_FAILED;
+        return PROGRAM_FAILED;
     }
     const int status = send_list(&options, &list);
     pose_list_free(&list);
@@ -129,20 +129,18 @@ static error_t parse_command(int key, char *argument, struct argp_state *state)
 
 int main(int argc, char **argv)
 {
-    static const struct argp ARGP = {NULL,
-                                     parse_command,
-                                     "COMMAND ...",
-                                     "Send poses onto a CAN bus.\v"
-                                     "Commands:\n"
-                                     "  send --bus BUS CSV     send a pose list in real time\n\n"
-                                     "`wallwarp-pose COMMAND --help` says more about a command.",
-                                     NULL,
-                                     NULL,
-                                     NULL};
+    static const struct argp argp = {
+        .parser = parse_command,
+        .args_doc = "COMMAND ...",
+        .doc = "Send poses onto a CAN bus.\v"
+               "Commands:\n"
+               "  send --bus BUS CSV     send a pose list in real time\n\n"
+               "`wallwarp-pose COMMAND --help` says more about a command.",
+    };
     char send_name[] = "wallwarp-pose send"; /* how argp names it in its messages */
-    argp_err_exit_status = EXIT_USAGE;
+    argp_err_exit_status = PROGRAM_BAD_USAGE;
     command_t command = {.argc = 0};
-    argp_parse(&ARGP, argc, argv, ARGP_IN_ORDER, NULL, &command);
+    argp_parse(&argp, argc, argv, ARGP_IN_ORDER, NULL, &command);
     command.argv[0] = send_name;
     return run_send(command.argc, command.argv);
 }

@@ -2,15 +2,15 @@
 // The program wallwarp-sim: a room of boards on this machine, or one wall for one pose.
 #include <argp.h>
 #include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "sim/files/png_file.h"
-#include "sim/run/sim_run.h"
 #include "sim/eval/warp_once.h"
-
-enum { DONE = 0, FAILED = 1, BAD_USAGE = 2 };
+#include "sim/files/png_file.h"
+#include "sim/program.h"
+#include "sim/run/sim_run.h"
 
 enum {
     KEY_VIDEO = 256,
@@ -60,11 +60,8 @@ static const warp_method_t *read_method(struct argp_state *state, const char *te
     const warp_method_t *method = warp_method_from_name(text);
     if (method != NULL)
         return method;
-    char names[256] = "";
-    for (int i = 0; i < WARP_METHODS; i++) {
-        const size_t used = strlen(names);
-        snprintf(names + used, sizeof names - used, "%s%s", i == 0 ? "" : ", ", warp_methods[i].name);
-    }
+    char names[PROGRAM_NAMES_LENGTH];
+    program_method_names(names);
     argp_error(state, "--method: found \"%s\", expected one of %s", text, names);
     return NULL;
 }
@@ -148,7 +145,7 @@ static int run_command(int argc, char **argv)
     };
     sim_run_options_t run = {.bus_port = SIM_RUN_NO_BUS, .judge = SIM_RUN_JUDGE_USUAL};
     if (argp_parse(&argp, argc, argv, 0, NULL, &run) != 0)
-        return BAD_USAGE;
+        return PROGRAM_BAD_USAGE;
     signal(SIGINT, request_stop);
     signal(SIGTERM, request_stop);
     return sim_run(&run, &stop_requested);
@@ -200,12 +197,6 @@ static error_t read_warp(int key, char *text, struct argp_state *state)
     }
 }
 
-static void print_warning(void *context, const char *line)
-{
-    (void)context;
-    fprintf(stderr, "warning: %s\n", line);
-}
-
 static bool warp_picture(warp_once_t *once, const warp_options_t *options, char error[ROOM_MESSAGE_LENGTH])
 {
     image_t picture = {.data = NULL}, panel = {.data = NULL};
@@ -232,13 +223,13 @@ static int warp_command(int argc, char **argv)
     warp_once_t once;
     char error[ROOM_MESSAGE_LENGTH];
     if (argp_parse(&argp, argc, argv, 0, NULL, &options) != 0)
-        return BAD_USAGE;
-    int status = (int)warp_once_open(&once, &options.place, print_warning, error);
-    if (status == DONE) {
-        status = warp_picture(&once, &options, error) ? DONE : FAILED;
+        return PROGRAM_BAD_USAGE;
+    int status = (int)warp_once_open(&once, &options.place, program_warn, error);
+    if (status == PROGRAM_DONE) {
+        status = warp_picture(&once, &options, error) ? PROGRAM_DONE : PROGRAM_FAILED;
         warp_once_close(&once);
     }
-    if (status != DONE)
+    if (status != PROGRAM_DONE)
         fprintf(stderr, "wallwarp-sim warp: %s\n", error);
     return status;
 }
@@ -253,7 +244,7 @@ int main(int argc, char **argv)
 {
     static char run_name[] = "wallwarp-sim run", warp_name[] = "wallwarp-sim warp";
     const char *command = argc > 1 ? argv[1] : "";
-    argp_err_exit_status = BAD_USAGE;
+    argp_err_exit_status = PROGRAM_BAD_USAGE;
     if (strcmp(command, "run") == 0) {
         argv[1] = run_name;
         return run_command(argc - 1, argv + 1);
@@ -264,10 +255,10 @@ int main(int argc, char **argv)
     }
     if (strcmp(command, "--help") == 0 || strcmp(command, "-?") == 0) {
         fputs(usage, stdout);
-        return DONE;
+        return PROGRAM_DONE;
     }
     if (argc > 1)
         fprintf(stderr, "wallwarp-sim: found \"%s\", expected run or warp\n", command);
     fputs(usage, stderr);
-    return BAD_USAGE;
+    return PROGRAM_BAD_USAGE;
 }

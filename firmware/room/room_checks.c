@@ -44,7 +44,7 @@ static bool check_mm(const room_checker_t *checker, const char *parent, const do
             const room_key_t key = room_key("%s[%d]", parent, axis);
             return refuse(checker, key, "found %.12g mm, expected -%.0f to %.0f", mm[axis], max_mm, max_mm);
         }
-        um[axis] = (int32_t)lround(mm[axis] * 1000.0); // |um| <= 10^9, fits
+        um[axis] = (int32_t)lround(mm[axis] * 1000.0); /* |um| <= 10^9, fits */
     }
     return true;
 }
@@ -135,7 +135,7 @@ static bool check_markers(const room_checker_t *checker, const room_yaml_board_t
                 const room_key_t key = room_key("boards[%d].markers[%u].px[%d]", b, m, axis);
                 return refuse(checker, key, "found %.12g, expected 0 to %d, inside the panel", px, size[axis]);
             }
-            marker->px_q16[axis] = (int32_t)lround(px * 65536.0); // <= 2^28
+            marker->px_q16[axis] = (int32_t)lround(px * 65536.0); /* <= 2^28 */
         }
         if (!check_mm(checker, mm_key.text, yaml->marker[m].mm, marker->um))
             return false;
@@ -144,22 +144,21 @@ static bool check_markers(const room_checker_t *checker, const room_yaml_board_t
     return true;
 }
 
-static bool check_weights(const room_checker_t *checker, const room_key_t *key, const double *weight, uint32_t count,
-                          int32_t expected)
+/* One axis of the weights: one for each `each` of the picture. */
+static bool check_weights(const room_checker_t *checker, room_key_t key, const double *weight, uint32_t count,
+                          int32_t expected, const char *each)
 {
-    if (count != (uint32_t)expected) {
-        return refuse(checker, *key, "found a list of %u, expected %d: one per picture %s", count, expected,
-                      key->text[strlen(key->text) - 1] == 'x' ? "column" : "row");
-    }
+    if (count != (uint32_t)expected)
+        return refuse(checker, key, "found a list of %u, expected %d: one per picture %s", count, expected, each);
     bool any = false;
     for (uint32_t i = 0; i < count; i++) {
         if (weight[i] < 0.0) {
-            const room_key_t at = room_key("%s[%u]", key->text, i);
+            const room_key_t at = room_key("%s[%u]", key.text, i);
             return refuse(checker, at, "found %.12g, expected 0 or more", weight[i]);
         }
         any = any || weight[i] > 0.0;
     }
-    return any || refuse(checker, *key, "found zeros only, expected at least one weight above 0");
+    return any || refuse(checker, key, "found zeros only, expected at least one weight above 0");
 }
 
 static bool check_method(const room_checker_t *checker, const char *name, room_board_t *board, int32_t b)
@@ -189,8 +188,8 @@ static bool check_look(const room_checker_t *checker, const room_yaml_board_t *y
     board->step_all = yaml->step == ROOM_YAML_STEP_ALL;
     const room_key_t x = room_key("boards[%d].ls_weights.x", b), y = room_key("boards[%d].ls_weights.y", b);
     const room_yaml_weights_t *weights = yaml->weights;
-    return weights == NULL || (check_weights(checker, &x, weights->x, weights->x_count, room->camera.width) &&
-                               check_weights(checker, &y, weights->y, weights->y_count, room->camera.height));
+    return weights == NULL || (check_weights(checker, x, weights->x, weights->x_count, room->camera.width, "column") &&
+                               check_weights(checker, y, weights->y, weights->y_count, room->camera.height, "row"));
 }
 
 static bool check_can(const room_checker_t *checker, const room_yaml_can_t *yaml, room_t *room)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The values of a room file: ranges, names and numbers of their own, conversion to integers.
-#ifndef FIRMWARE_ROOM_CHECKS_H
-#define FIRMWARE_ROOM_CHECKS_H
+#ifndef FIRMWARE_ROOM_ROOM_CHECKS_H
+#define FIRMWARE_ROOM_ROOM_CHECKS_H
 
 #include <stdbool.h>
 

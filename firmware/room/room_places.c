@@ -7,7 +7,7 @@
 
 #include "firmware/room/room_scalar.h"
 
-// The deepest is the number in boards[0].wall.corners_mm[0][0].
+/* The deepest is the number in boards[0].wall.corners_mm[0][0]. */
 enum { MAX_DEPTH = 8, MAX_KEYS = 16 };
 
 static room_key_t key_of(const room_places_t *places, int32_t at)
@@ -44,7 +44,7 @@ static bool refuse_place(const room_places_t *places, int32_t at, const room_rep
                        expected.text);
 }
 
-// Without aliases every node has one parent, so there are never more places than nodes.
+/* Without aliases every node has one parent, so there are never more places than nodes. */
 static void push(room_places_t *places, const room_place_t *place)
 {
     if (places->count < places->capacity)

@@ -3,8 +3,8 @@
 //
 // libcyaml checks the same, but cannot say the line of a value that it accepted, and its words for what it refuses
 // differ between its versions. So the file is first walked here, by libcyaml's own schema tables.
-#ifndef FIRMWARE_ROOM_PLACES_H
-#define FIRMWARE_ROOM_PLACES_H
+#ifndef FIRMWARE_ROOM_ROOM_PLACES_H
+#define FIRMWARE_ROOM_ROOM_PLACES_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -3,7 +3,6 @@
 #include "firmware/room/room_report.h"
 
 #include <stdarg.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -19,7 +18,7 @@ room_key_t room_key(const char *format, ...)
     return key;
 }
 
-// A value may hold line ends and escapes: none of them may reach a terminal or break the line.
+/* A value may hold line ends and escapes: none of them may reach a terminal or break the line. */
 static void keep_on_one_line(char *text)
 {
     for (; *text != '\0'; text++)
@@ -32,7 +31,7 @@ __attribute__((format(printf, 5, 0))) static void compose(char out[ROOM_MESSAGE_
 {
     const size_t length = strlen(path);
     const char *shown = length > SHOWN_PATH_LENGTH ? path + length - SHOWN_PATH_LENGTH : path;
-    // Path, line and key are shorter than the message: there is always room for what was found.
+    /* Path, line and key are shorter than the message: there is always room for what was found. */
     const int used = snprintf(out, ROOM_MESSAGE_LENGTH, "%s:%zu: %.*s: ", shown, line, ROOM_KEY_LENGTH, key);
     vsnprintf(out + used, ROOM_MESSAGE_LENGTH - (size_t)used, format, arguments);
     keep_on_one_line(out);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Errors and warnings about a room file, each one line: "FILE:LINE: KEY: what was found, what was expected".
-#ifndef FIRMWARE_ROOM_REPORT_H
-#define FIRMWARE_ROOM_REPORT_H
+#ifndef FIRMWARE_ROOM_ROOM_REPORT_H
+#define FIRMWARE_ROOM_ROOM_REPORT_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -31,7 +31,7 @@ bool room_scalar_is_null(const yaml_node_t *node)
     return false;
 }
 
-// libcyaml would read 010 as 8 and 0x10 as 16. 18 digits fit 64 bits.
+/* libcyaml would read 010 as 8 and 0x10 as 16. 18 digits fit 64 bits. */
 static bool is_whole_number(const char *text)
 {
     const char *digits = text[0] == '-' ? text + 1 : text;
@@ -39,7 +39,7 @@ static bool is_whole_number(const char *text)
     return count > 0 && count <= MAX_DIGITS && digits[count] == '\0' && (count == 1 || digits[0] != '0');
 }
 
-// strtod, which libcyaml uses, also takes nan, inf, hexadecimal and leading spaces.
+/* strtod, which libcyaml uses, also takes nan, inf, hexadecimal and leading spaces. */
 static bool is_number(const char *text)
 {
     if (text[0] == '\0' || text[strspn(text, "+-.0123456789eE")] != '\0')

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Single values of a room file: do they have the type asked for, and how to name them in a message.
-#ifndef FIRMWARE_ROOM_SCALAR_H
-#define FIRMWARE_ROOM_SCALAR_H
+#ifndef FIRMWARE_ROOM_ROOM_SCALAR_H
+#define FIRMWARE_ROOM_ROOM_SCALAR_H
 
 #include <stdbool.h>
 

@@ -2,8 +2,6 @@
 // The shape of a room file, as tables for libcyaml.
 #include "firmware/room/room_schema.h"
 
-#include <stddef.h>
-
 #include "firmware/room.h"
 
 static const cyaml_schema_value_t number = {CYAML_VALUE_FLOAT(CYAML_FLAG_DEFAULT, double)};

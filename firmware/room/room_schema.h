@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shape of a room file: its keys, their types, and the structs they are read into.
-#ifndef FIRMWARE_ROOM_SCHEMA_H
-#define FIRMWARE_ROOM_SCHEMA_H
+#ifndef FIRMWARE_ROOM_ROOM_SCHEMA_H
+#define FIRMWARE_ROOM_ROOM_SCHEMA_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -56,7 +56,7 @@ static bool read_bytes(room_text_t *text, const room_report_t *report)
     return room_refuse(report, 1, "file", "more than %d bytes, expected a room file of at most that", ROOM_MAX_BYTES);
 }
 
-// Where the walk through the text is.
+/* Where the walk through the text is. */
 typedef struct {
     int documents, depth;
 } position_t;
@@ -82,7 +82,7 @@ static bool check_event(const yaml_event_t *event, position_t *at, const room_re
     return true;
 }
 
-// Every event takes at least one byte, but for the few that open and close: the loop ends with the text.
+/* Every event takes at least one byte, but for the few that open and close: the loop ends with the text. */
 static bool check_events(const room_text_t *text, const room_report_t *report)
 {
     yaml_parser_t parser;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A room file's bytes, known to be one well-formed YAML document without aliases.
-#ifndef FIRMWARE_ROOM_TEXT_H
-#define FIRMWARE_ROOM_TEXT_H
+#ifndef FIRMWARE_ROOM_ROOM_TEXT_H
+#define FIRMWARE_ROOM_ROOM_TEXT_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -10,7 +10,7 @@ typedef struct {
     double um[3];
 } point_t;
 
-// Of all four corners; an unknown one completes the parallelogram.
+/* Of all four corners; an unknown one completes the parallelogram. */
 static point_t corner_of(const wall_corners_t *corners, int c)
 {
     const int32_t(*um)[3] = corners->corner_um;
@@ -31,8 +31,10 @@ static point_t centre_of(const wall_corners_t *corners)
     return centre;
 }
 
-// Seen from the front, right x down points away from the viewer; the viewer is where the other walls are. Walls that
-// continue each other lie near this wall's plane and tell nothing: hence the tenth.
+/*
+ * Seen from the front, right x down points away from the viewer; the viewer is where the other walls are. Walls that
+ * continue each other lie near this wall's plane and tell nothing: hence the tenth.
+ */
 static bool looks_mirrored(const room_t *room, int32_t b)
 {
     const wall_corners_t *corners = &room->board[b].corners;

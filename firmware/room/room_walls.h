@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fits every wall of a room to its corners, and warns of the odd ones.
-#ifndef FIRMWARE_ROOM_WALLS_H
-#define FIRMWARE_ROOM_WALLS_H
+#ifndef FIRMWARE_ROOM_ROOM_WALLS_H
+#define FIRMWARE_ROOM_ROOM_WALLS_H
 
 #include <stdbool.h>
 

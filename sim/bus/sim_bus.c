@@ -72,7 +72,7 @@ bool sim_bus_carries(const sim_bus_t *bus, const hal_can_frame_t *frame)
     return n <= 8 || (frame->fd && ((n <= 24 && n % 4 == 0) || n == 32 || n == 48 || n == 64));
 }
 
-/** Bits in the order sent: base identifier, SRR and IDE (recessive in extended frames), its rest, FDF. */
+/* Bits in the order sent: base identifier, SRR and IDE (recessive in extended frames), its rest, FDF. */
 static uint32_t arbitration_key(const hal_can_frame_t *frame)
 {
     const uint32_t fd = frame->fd ? 1 : 0;
@@ -100,7 +100,7 @@ int64_t sim_bus_bits_ns(const sim_bus_t *bus, int64_t bits)
     return rounded_ns(bits, bus->bitrate);
 }
 
-/** Busy time up to a moment not before now: what is on the wire now is all that is known of the future. */
+/* Busy time up to a moment not before now: what is on the wire now is all that is known of the future. */
 static int64_t busy_until(const sim_bus_t *bus, int64_t time_ns)
 {
     return bus->stats.busy_ns - (bus->free_ns > time_ns ? bus->free_ns - time_ns : 0);
@@ -126,7 +126,7 @@ static bool wants_to_send(const hal_can_t *can)
     return can->transmit_count > 0 && sim_can_is_on_bus(can);
 }
 
-/** When the next frame starts as things are: nobody starts while the wire is taken, or before now. */
+/* When the next frame starts as things are: nobody starts while the wire is taken, or before now. */
 static int64_t next_start_ns(const sim_bus_t *bus)
 {
     const int64_t earliest = bus->free_ns > bus->now_ns ? bus->free_ns : bus->now_ns;
@@ -142,7 +142,7 @@ static int64_t next_start_ns(const sim_bus_t *bus)
     return start;
 }
 
-/** Let all who are ready arbitrate. NULL: the flooding node won. */
+/* Let all who are ready arbitrate. NULL: the flooding node won. */
 static hal_can_t *winner_of_arbitration(sim_bus_t *bus)
 {
     hal_can_t *winner = NULL;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A CAN bus between the boards of one process: exact bit timing in virtual time, and faults on demand.
-#ifndef SIM_BUS_H
-#define SIM_BUS_H
+#ifndef SIM_BUS_SIM_BUS_H
+#define SIM_BUS_SIM_BUS_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -6,7 +6,7 @@
 
 static const int64_t longest_delay_us = 3600000000;
 
-/** SplitMix64: a fixed step of the state, then a mix of its bits. */
+/* SplitMix64: a fixed step of the state, then a mix of its bits. */
 static uint64_t next_random(sim_bus_t *bus)
 {
     bus->random += 0x9E3779B97F4A7C15U;
@@ -32,7 +32,7 @@ bool sim_bus_is_destroyed(sim_bus_t *bus, const hal_can_t *sender)
     return (only == NULL || only == sender) && strikes(bus, SIM_BUS_ERROR);
 }
 
-/** A fault at one listener concerns only the frames that one hears. */
+/* A fault at one listener concerns only the frames that one hears. */
 static bool strikes_delivery(sim_bus_t *bus, sim_bus_fault_t fault, const hal_can_t *sender)
 {
     const hal_can_t *only = bus->fail[fault].only;
@@ -44,7 +44,7 @@ static bool concerns(const sim_bus_t *bus, sim_bus_fault_t fault, const hal_can_
     return bus->fail[fault].only == NULL || bus->fail[fault].only == can;
 }
 
-/** Flip one to three neighbouring bits; frames have 8 bits or more here, so none is flipped back. */
+/* Flip one to three neighbouring bits; frames have 8 bits or more here, so none is flipped back. */
 static hal_can_frame_t corrupted_copy(sim_bus_t *bus, const hal_can_frame_t *frame)
 {
     hal_can_frame_t copy = *frame;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the wire (sim_bus.c), its controllers (sim_can_controller.c) and its faults (sim_bus_faults.c) share.
-#ifndef SIM_BUS_INTERNAL_H
-#define SIM_BUS_INTERNAL_H
+#ifndef SIM_BUS_SIM_BUS_INTERNAL_H
+#define SIM_BUS_SIM_BUS_INTERNAL_H
 
 #include "sim/bus/sim_bus.h"
 

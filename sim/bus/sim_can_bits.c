@@ -10,7 +10,7 @@ enum {
     FD_SHORT_CRC_BYTES = 16
 };
 
-/** A bit stream in the making: only what is needed to count it. */
+/* A bit stream in the making: only what is needed to count it. */
 typedef struct {
     int32_t bits;      /**< sent so far, stuff bits included */
     int32_t run;       /**< equal bits at the end */
@@ -47,7 +47,7 @@ static void append(stream_t *stream, uint32_t value, int count)
     }
 }
 
-/** Start of frame, identifier, and the RTR or RRS and IDE bits around it. */
+/* Start of frame, identifier, and the RTR or RRS and IDE bits around it. */
 static void append_arbitration_field(stream_t *stream, const hal_can_frame_t *frame)
 {
     append(stream, 0, 1);

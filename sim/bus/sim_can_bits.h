@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How many bits a CAN frame takes on the wire, stuff bits included.
-#ifndef SIM_CAN_BITS_H
-#define SIM_CAN_BITS_H
+#ifndef SIM_BUS_SIM_CAN_BITS_H
+#define SIM_BUS_SIM_CAN_BITS_H
 
 #include <stdint.h>
 

@@ -11,7 +11,7 @@ static bool goes_first(const hal_can_t *can, const sim_can_pending_t *a, const s
     return a->key < b->key;
 }
 
-/** The place must be there. */
+/* The place must be there. */
 static void insert(hal_can_t *can, const sim_can_pending_t *pending)
 {
     int at = can->transmit_count++;

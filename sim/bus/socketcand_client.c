@@ -33,7 +33,7 @@ static void flush(socketcand_client_t *client)
     memmove(client->output, client->output + sent, client->output_length);
 }
 
-/** Queue text for a client. One that lets its buffer run full is hung up on. */
+/* Queue text for a client. One that lets its buffer run full is hung up on. */
 static void say(socketcand_client_t *client, socketcand_server_stats_t *stats, const char *text)
 {
     const size_t length = strlen(text);
@@ -56,7 +56,7 @@ static void say_error(socketcand_client_t *client, socketcand_server_stats_t *st
     say(client, stats, text);
 }
 
-/** @return Whether the command is dealt with; false when it must wait for room in the transmit queue. */
+/* @return Whether the command is dealt with; false when it must wait for room in the transmit queue. */
 static bool send_frame(socketcand_client_t *client, socketcand_server_stats_t *stats, const hal_can_frame_t *frame)
 {
     if (!client->open) {
@@ -73,6 +73,16 @@ static bool send_frame(socketcand_client_t *client, socketcand_server_stats_t *s
     return true;
 }
 
+static void open_channel(socketcand_client_t *client, socketcand_server_stats_t *stats, const char *channel)
+{
+    if (strcmp(channel, "can0") != 0) {
+        say_error(client, stats, "could not open bus, expected can0");
+        return;
+    }
+    client->open = true;
+    say(client, stats, "< ok >");
+}
+
 static void enter_raw_mode(socketcand_client_t *client, socketcand_server_stats_t *stats)
 {
     if (!client->open) {
@@ -85,18 +95,14 @@ static void enter_raw_mode(socketcand_client_t *client, socketcand_server_stats_
     client->quiet_until_us = sim_bus_now_us(client->bus) + SOCKETCAND_QUIET_US;
 }
 
-/** @return As send_frame(). */
+/* @return As send_frame(). */
 static bool perform(socketcand_client_t *client, socketcand_server_stats_t *stats, const socketcand_command_t *command)
 {
     switch (command->verb) {
     case SOCKETCAND_SEND:
         return send_frame(client, stats, &command->frame);
     case SOCKETCAND_OPEN:
-        client->open |= strcmp(command->channel, "can0") == 0;
-        if (strcmp(command->channel, "can0") == 0)
-            say(client, stats, "< ok >");
-        else
-            say_error(client, stats, "could not open bus, expected can0");
+        open_channel(client, stats, command->channel);
         return true;
     case SOCKETCAND_RAWMODE:
         enter_raw_mode(client, stats);
@@ -111,7 +117,7 @@ static bool perform(socketcand_client_t *client, socketcand_server_stats_t *stat
     }
 }
 
-/** Perform the whole commands in the input buffer. @return false when one must wait. */
+/* Perform the whole commands in the input buffer. @return false when one must wait. */
 static bool perform_input(socketcand_client_t *client, socketcand_server_stats_t *stats)
 {
     size_t at = 0;
@@ -180,7 +186,7 @@ static void write_frames(socketcand_client_t *client, socketcand_server_stats_t 
         flush(client);
 }
 
-/** A controller driven bus-off comes back by itself, as an interface with restart-ms does. */
+/* A controller driven bus-off comes back by itself, as an interface with restart-ms does. */
 static void keep_controller_going(socketcand_client_t *client)
 {
     if (hal_can_state(client->can) == HAL_CAN_BUS_OFF && hal_can_restart(client->can) != HAL_OK)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One client of the socketcand server: its buffers and its conversation.
-#ifndef SIM_SOCKETCAND_CLIENT_H
-#define SIM_SOCKETCAND_CLIENT_H
+#ifndef SIM_BUS_SOCKETCAND_CLIENT_H
+#define SIM_BUS_SOCKETCAND_CLIENT_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -20,7 +20,7 @@ struct socketcand_server {
     socketcand_client_t client[SOCKETCAND_CLIENTS];
 };
 
-/** @return A listening socket, with its port; -1 with errno set. */
+/* @return A listening socket, with its port; -1 with errno set. */
 static int listen_on(int *port)
 {
     const int fd = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);

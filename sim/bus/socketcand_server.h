@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens a simulated CAN bus to TCP clients of this machine, in the socketcand protocol.
-#ifndef SIM_SOCKETCAND_SERVER_H
-#define SIM_SOCKETCAND_SERVER_H
+#ifndef SIM_BUS_SOCKETCAND_SERVER_H
+#define SIM_BUS_SOCKETCAND_SERVER_H
 
 #include <stdint.h>
 

@@ -62,7 +62,7 @@ static bool hex_from_word(uint32_t *value, word_t word, size_t max_digits)
     return true;
 }
 
-/** @return NULL when the words make a frame, else what was expected. */
+/* @return NULL when the words make a frame, else what was expected. */
 static const char *frame_from_words(hal_can_frame_t *frame, const word_t *words, int count)
 {
     uint32_t id = 0, length = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The words of the socketcand protocol: commands read, frames written.
-#ifndef SIM_SOCKETCAND_TEXT_H
-#define SIM_SOCKETCAND_TEXT_H
+#ifndef SIM_BUS_SOCKETCAND_TEXT_H
+#define SIM_BUS_SOCKETCAND_TEXT_H
 
 #include <stddef.h>
 

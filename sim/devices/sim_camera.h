@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The camera in the simulator (hal/hal_camera.h): plays a video, and fails on demand.
-#ifndef SIM_SIM_CAMERA_H
-#define SIM_SIM_CAMERA_H
+#ifndef SIM_DEVICES_SIM_CAMERA_H
+#define SIM_DEVICES_SIM_CAMERA_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -15,7 +15,7 @@ struct hal_time {
     int64_t now_us; /**< virtual: the simulation's time */
 };
 
-static int64_t monotonic_us(void)
+int64_t sim_clock_monotonic_us(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -41,7 +41,7 @@ hal_time_t *sim_clock_create(const sim_clock_settings_t *settings, char error[FI
     }
     *clock = (hal_time_t){.settings = *settings};
     if (settings->real)
-        clock->settings.epoch_us = monotonic_us();
+        clock->settings.epoch_us = sim_clock_monotonic_us();
     clock->now_us = clock->settings.epoch_us;
     return clock;
 }
@@ -70,7 +70,7 @@ int64_t sim_clock_shows_us(const hal_time_t *clock, int64_t time_us)
 
 int64_t hal_time_now_us(const hal_time_t *clock)
 {
-    return sim_clock_shows_us(clock, clock->settings.real ? monotonic_us() : clock->now_us);
+    return sim_clock_shows_us(clock, clock->settings.real ? sim_clock_monotonic_us() : clock->now_us);
 }
 
 bool sim_clock_is_real(const hal_time_t *clock)

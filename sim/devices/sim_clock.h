@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A board's clock in the simulator (hal/hal_time.h): virtual or real time, with an offset and a drift of its own.
-#ifndef SIM_SIM_CLOCK_H
-#define SIM_SIM_CLOCK_H
+#ifndef SIM_DEVICES_SIM_CLOCK_H
+#define SIM_DEVICES_SIM_CLOCK_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -36,6 +36,9 @@ int64_t sim_clock_shows_us(const hal_time_t *clock, int64_t time_us);
 
 /** @return Whether the clock runs by itself. */
 bool sim_clock_is_real(const hal_time_t *clock);
+
+/** @return CLOCK_MONOTONIC of this machine, us: what t is for real clocks. */
+int64_t sim_clock_monotonic_us(void);
 
 /** Sleep until the board's clock shows that time. Returns at once when it has passed, or when the clock is virtual. */
 void sim_clock_sleep_until_us(const hal_time_t *clock, int64_t board_time_us);

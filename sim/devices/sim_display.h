@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The display in the simulator (hal/hal_display.h): pictures in memory, blanks in the board's time, faults on demand.
-#ifndef SIM_SIM_DISPLAY_H
-#define SIM_SIM_DISPLAY_H
+#ifndef SIM_DEVICES_SIM_DISPLAY_H
+#define SIM_DEVICES_SIM_DISPLAY_H
 
-#include <stdbool.h>
 #include <stdint.h>
 
 #include "hal/hal_display.h"
 #include "hal/hal_time.h"
-#include "sim/files/file_io.h"
 #include "sim/devices/sim_rate.h"
+#include "sim/files/file_io.h"
 
 /**
  * Three buffers: one on the wall, one presented, one drawn into. A picture presented while another still waits for

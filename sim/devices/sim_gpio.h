@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The board's digital lines in the simulator (hal/hal_gpio.h): what was driven, and a genlock input to feed.
-#ifndef SIM_SIM_GPIO_H
-#define SIM_SIM_GPIO_H
+#ifndef SIM_DEVICES_SIM_GPIO_H
+#define SIM_DEVICES_SIM_GPIO_H
 
 #include <stdbool.h>
 #include <stdint.h>

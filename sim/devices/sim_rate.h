@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A steady beat: pictures of a camera, blanks of a display.
-#ifndef SIM_RATE_H
-#define SIM_RATE_H
+#ifndef SIM_DEVICES_SIM_RATE_H
+#define SIM_DEVICES_SIM_RATE_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The watchdog in the simulator (hal/hal_watchdog.h): says when it would have reset the board.
-#ifndef SIM_SIM_WATCHDOG_H
-#define SIM_SIM_WATCHDOG_H
+#ifndef SIM_DEVICES_SIM_WATCHDOG_H
+#define SIM_DEVICES_SIM_WATCHDOG_H
 
 #include <stdbool.h>
 #include <stdint.h>

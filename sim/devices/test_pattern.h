@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The built-in test picture: colour bars, a gray ramp, a grid and a moving bar.
-#ifndef SIM_TEST_PATTERN_H
-#define SIM_TEST_PATTERN_H
+#ifndef SIM_DEVICES_TEST_PATTERN_H
+#define SIM_DEVICES_TEST_PATTERN_H
 
 #include <stdint.h>
 

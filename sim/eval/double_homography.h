@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The frame's homography in double precision, both ways: for evaluation and for the viewer's eye, never for a frame.
-#ifndef SIM_DOUBLE_HOMOGRAPHY_H
-#define SIM_DOUBLE_HOMOGRAPHY_H
+#ifndef SIM_EVAL_DOUBLE_HOMOGRAPHY_H
+#define SIM_EVAL_DOUBLE_HOMOGRAPHY_H
 
 #include <stdint.h>
 

@@ -5,6 +5,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "sim/program.h"
+
 static error_t parse_place(int key, char *argument, struct argp_state *state)
 {
     warp_once_place_t *place = state->input;
@@ -44,16 +46,10 @@ static const struct argp_option place_options[] = {
 
 const struct argp eval_place_argp = {.options = place_options, .parser = parse_place};
 
-static void hear_warning(void *context, const char *line)
-{
-    (void)context;
-    fprintf(stderr, "warning: %s\n", line);
-}
-
 warp_once_status_t eval_open(warp_once_t *once, const warp_once_place_t *place, const char *command)
 {
     char error[ROOM_MESSAGE_LENGTH];
-    const warp_once_status_t status = warp_once_open(once, place, hear_warning, error);
+    const warp_once_status_t status = warp_once_open(once, place, program_warn, error);
     if (status != WARP_ONCE_OK)
         eval_error(command, "%s", error);
     return status;
@@ -72,7 +68,7 @@ void eval_error(const char *command, const char *format, ...)
 int eval_finish(const char *command)
 {
     if (fflush(stdout) == 0 && !ferror(stdout))
-        return 0;
+        return PROGRAM_DONE;
     eval_error(command, "stdout: cannot write the results");
-    return 1;
+    return PROGRAM_FAILED;
 }

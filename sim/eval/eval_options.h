@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Command-line options that the commands of wallwarp-eval share: ROOM --board NAME --pose "...".
-#ifndef SIM_EVAL_OPTIONS_H
-#define SIM_EVAL_OPTIONS_H
+#ifndef SIM_EVAL_EVAL_OPTIONS_H
+#define SIM_EVAL_EVAL_OPTIONS_H
 
 #include <argp.h>
 

@@ -9,6 +9,7 @@
 #include "sim/eval/eval_options.h"
 #include "sim/eval/mesh_psnr.h"
 #include "sim/files/png_file.h"
+#include "sim/program.h"
 
 enum { DEFAULT_FACTOR = 4, MAX_METHODS = 64 };
 
@@ -33,12 +34,9 @@ static void add_method(options_t *options, const char *name, struct argp_state *
 {
     const warp_method_t *method = warp_method_from_name(name);
     if (method == NULL && strcmp(name, limit_name) != 0) {
-        char names[256] = "";
-        for (int m = 0; m < WARP_METHODS; m++) {
-            const size_t used = strlen(names);
-            snprintf(names + used, sizeof names - used, ", %s", warp_methods[m].name);
-        }
-        argp_error(state, "--method '%s': no such method, expected all, limit%s", name, names);
+        char names[PROGRAM_NAMES_LENGTH];
+        program_method_names(names);
+        argp_error(state, "--method '%s': no such method, expected all, limit, %s", name, names);
     }
     if (options->method_count == MAX_METHODS)
         argp_error(state, "--method: too many methods, expected at most %d", MAX_METHODS);
@@ -131,7 +129,7 @@ static int sample_and_print(work_t *work, const options_t *options, const char *
     double_homography_t homography;
     double_homography_from_fixed(&homography, &work->once.homography);
     const char *path = options->original != NULL ? options->original : options->picture;
-    char error[256];
+    char error[FILE_ERROR_LENGTH];
     if (!mesh_sample(&work->mesh, &homography, &work->truth, options->factor, error)) {
         eval_error(command, "%s: %s", path, error);
         return WARP_ONCE_FAILED;

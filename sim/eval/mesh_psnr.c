@@ -49,29 +49,31 @@ static void add_row(mesh_t *mesh, const sample_row_t *row, const uint8_t *truth,
     mesh->sum_of_squares += sum_of_squares;
 }
 
-static bool sizes_fit(const double_homography_t *homography, const image_t *truth, int32_t factor, char error[256])
+static bool sizes_fit(const double_homography_t *homography, const image_t *truth, int32_t factor,
+                      char error[FILE_ERROR_LENGTH])
 {
     const int32_t width = homography->picture_width, height = homography->picture_height;
     const int32_t finer = truth->width / width;
     if (factor < 1 || factor > MESH_MAX_FACTOR) {
-        snprintf(error, 256, "factor %d, expected 1 to %d", factor, MESH_MAX_FACTOR);
+        snprintf(error, FILE_ERROR_LENGTH, "factor %d, expected 1 to %d", factor, MESH_MAX_FACTOR);
         return false;
     }
     if (finer < 1 || truth->width != finer * width || truth->height != finer * height) {
-        snprintf(error, 256, "%d x %d pixels, expected a whole multiple of the picture's %d x %d", truth->width,
-                 truth->height, width, height);
+        snprintf(error, FILE_ERROR_LENGTH, "%d x %d pixels, expected a whole multiple of the picture's %d x %d",
+                 truth->width, truth->height, width, height);
         return false;
     }
     if (factor % finer != 0) {
-        snprintf(error, 256, "factor %d, expected a multiple of %d: the original is %d times as fine as the picture",
-                 factor, finer, finer);
+        snprintf(error, FILE_ERROR_LENGTH,
+                 "factor %d, expected a multiple of %d: the original is %d times as fine as the picture", factor, finer,
+                 finer);
         return false;
     }
     return true;
 }
 
 bool mesh_sample(mesh_t *mesh, const double_homography_t *homography, const image_t *truth, int32_t factor,
-                 char error[256])
+                 char error[FILE_ERROR_LENGTH])
 {
     if (!sizes_fit(homography, truth, factor, error))
         return false;
@@ -81,7 +83,7 @@ bool mesh_sample(mesh_t *mesh, const double_homography_t *homography, const imag
                    .samples = (int64_t)homography->picture_width * homography->picture_height * factor * factor,
                    .cell = calloc(cells, sizeof *made.cell)};
     if (made.cell == NULL) {
-        snprintf(error, 256, "out of memory for %zu projector pixels", cells);
+        snprintf(error, FILE_ERROR_LENGTH, "out of memory for %zu projector pixels", cells);
         return false;
     }
     const int32_t per = factor / (truth->width / homography->picture_width);

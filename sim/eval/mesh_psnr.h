@@ -5,13 +5,14 @@
 // are sampled S x S times per picture pixel; PSNR is taken over the samples that hit the lit panel. A sample's place
 // does not depend on the method under test, so the samples of each projector pixel are summed up once, and each method
 // then costs one pass over the panel.
-#ifndef SIM_MESH_PSNR_H
-#define SIM_MESH_PSNR_H
+#ifndef SIM_EVAL_MESH_PSNR_H
+#define SIM_EVAL_MESH_PSNR_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
 #include "sim/eval/double_homography.h"
+#include "sim/files/file_io.h"
 #include "warp_fixed/image.h"
 
 enum { MESH_MAX_FACTOR = 64 };
@@ -40,7 +41,7 @@ typedef struct {
  * @param[out] error       On failure: which of these conditions is broken, in one line.
  */
 bool mesh_sample(mesh_t *mesh, const double_homography_t *homography, const image_t *truth, int32_t factor,
-                 char error[256]);
+                 char error[FILE_ERROR_LENGTH]);
 
 /** Give back its memory. */
 void mesh_free(mesh_t *mesh);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the viewer's eye sees of the lit walls.
-#ifndef SIM_VIEWER_PICTURE_H
-#define SIM_VIEWER_PICTURE_H
+#ifndef SIM_EVAL_VIEWER_PICTURE_H
+#define SIM_EVAL_VIEWER_PICTURE_H
 
 #include <stdint.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One board of a room file, one pose, one picture -> one corrected panel, with the product's own code.
-#ifndef SIM_WARP_ONCE_H
-#define SIM_WARP_ONCE_H
+#ifndef SIM_EVAL_WARP_ONCE_H
+#define SIM_EVAL_WARP_ONCE_H
 
 #include "firmware/room.h"
 #include "warp_fixed/image.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opening files, and the error line that names the file.
-#ifndef SIM_FILE_IO_H
-#define SIM_FILE_IO_H
+#ifndef SIM_FILES_FILE_IO_H
+#define SIM_FILES_FILE_IO_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // File names with a number in them: frame_%05d.png.
-#ifndef SIM_NUMBERED_NAME_H
-#define SIM_NUMBERED_NAME_H
+#ifndef SIM_FILES_NUMBERED_NAME_H
+#define SIM_FILES_NUMBERED_NAME_H
 
 #include <stdbool.h>
 #include <stddef.h>

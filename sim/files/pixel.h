@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One pixel from R, G and B, in either picture format.
-#ifndef SIM_PIXEL_H
-#define SIM_PIXEL_H
+#ifndef SIM_FILES_PIXEL_H
+#define SIM_FILES_PIXEL_H
 
 #include <stdint.h>
 

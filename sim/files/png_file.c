@@ -16,7 +16,7 @@
 
 enum { SIGNATURE_BYTES = 8, COMPRESSION_BUFFER_BYTES = 65536 };
 
-/** One file being read or written. Lives outside the functions that longjmp() may leave, so nothing of it is lost. */
+/* One file being read or written. Lives outside the functions that longjmp() may leave, so nothing of it is lost. */
 typedef struct {
     const char *path;
     const char *trouble; /**< what any message of libpng comes after */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // PNG files: read into, and written from, the pictures of this project.
-#ifndef SIM_PNG_FILE_H
-#define SIM_PNG_FILE_H
+#ifndef SIM_FILES_PNG_FILE_H
+#define SIM_FILES_PNG_FILE_H
 
 #include <stdbool.h>
 #include <stdint.h>

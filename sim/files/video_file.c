@@ -9,10 +9,10 @@
 #include <strings.h>
 #include <unistd.h>
 
+#include "sim/devices/test_pattern.h"
 #include "sim/files/numbered_name.h"
 #include "sim/files/pixel.h"
 #include "sim/files/png_file.h"
-#include "sim/devices/test_pattern.h"
 #include "sim/files/y4m_file.h"
 
 enum { PATH_BYTES = 4096, MAGIC_BYTES = 9 };

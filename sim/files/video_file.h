@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A video, whatever it is made of: one PNG, numbered PNGs, Y4M, raw pixels, or the test pattern.
-#ifndef SIM_VIDEO_FILE_H
-#define SIM_VIDEO_FILE_H
+#ifndef SIM_FILES_VIDEO_FILE_H
+#define SIM_FILES_VIDEO_FILE_H
 
 #include <stdint.h>
 

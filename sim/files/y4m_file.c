@@ -13,7 +13,7 @@
 
 enum { LINE_BYTES = 256, HD_HEIGHT = 720 };
 
-/** How the chroma planes of a colour space are laid out. */
+/* How the chroma planes of a colour space are laid out. */
 typedef struct {
     const char *name;
     bool has_chroma;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // YUV4MPEG2 files (.y4m): uncompressed 8-bit video.
-#ifndef SIM_Y4M_FILE_H
-#define SIM_Y4M_FILE_H
+#ifndef SIM_FILES_Y4M_FILE_H
+#define SIM_FILES_Y4M_FILE_H
 
 #include <stdint.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // 8-bit Y'CbCr to R'G'B', in integers.
-#ifndef SIM_YUV_TO_RGB_H
-#define SIM_YUV_TO_RGB_H
+#ifndef SIM_FILES_YUV_TO_RGB_H
+#define SIM_FILES_YUV_TO_RGB_H
 
 #include <stdbool.h>
 #include <stdint.h>

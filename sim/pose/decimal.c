@@ -6,7 +6,7 @@
 
 enum { MOST_DIGITS = 18, MOST_EXPONENT = 10000 };
 
-/** digits * 10^exponent; what follows the first 18 significant digits is cut off. */
+/* digits * 10^exponent; what follows the first 18 significant digits is cut off. */
 typedef struct {
     bool negative;
     int64_t digits;
@@ -18,7 +18,7 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/** Cutting off keeps rounding right: half a unit is never reached by the lost digits alone. */
+/* Cutting off keeps rounding right: half a unit is never reached by the lost digits alone. */
 static void take_digit(decimal_t *number, char digit, int *significant)
 {
     if (*significant < MOST_DIGITS) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decimal text -> integer in units of a power of ten, without binary floating point.
-#ifndef SIM_DECIMAL_H
-#define SIM_DECIMAL_H
+#ifndef SIM_POSE_DECIMAL_H
+#define SIM_POSE_DECIMAL_H
 
 #include <stdint.h>
 

@@ -23,7 +23,7 @@ static bool fail(char error[POSE_LINK_MESSAGE_LENGTH], const char *interface, co
     return false;
 }
 
-/** The remedy is to bring the interface up; fd_rate is "" or says how with FD. */
+/* The remedy is to bring the interface up; fd_rate is "" or says how with FD. */
 static bool fail_until_up(char error[POSE_LINK_MESSAGE_LENGTH], const char *interface, const char *what,
                           const char *fd_rate)
 {
@@ -32,7 +32,7 @@ static bool fail_until_up(char error[POSE_LINK_MESSAGE_LENGTH], const char *inte
     return false;
 }
 
-/** The interface exists, is CAN, is up, and carries FD when that is wanted. */
+/* The interface exists, is CAN, is up, and carries FD when that is wanted. */
 static bool check_interface(int can, const char *name, bool fd, char error[POSE_LINK_MESSAGE_LENGTH])
 {
     struct ifreq request = {.ifr_ifindex = 0};

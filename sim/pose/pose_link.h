@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A sender's way onto a CAN bus: a SocketCAN interface, or a simulator's socketcand port.
-#ifndef SIM_POSE_LINK_H
-#define SIM_POSE_LINK_H
+#ifndef SIM_POSE_POSE_LINK_H
+#define SIM_POSE_POSE_LINK_H
 
 #include <stdbool.h>
 

@@ -2,6 +2,7 @@
 // Client of the socketcand protocol in raw mode.
 #include "sim/pose/pose_link_socketcand.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <netdb.h>
 #include <netinet/in.h>
@@ -30,7 +31,7 @@ static int fail(char error[POSE_LINK_MESSAGE_LENGTH], const char *bus, const cha
     return -1;
 }
 
-/** Splits HOST:PORT or [HOST]:PORT. */
+/* Splits HOST:PORT or [HOST]:PORT. */
 static bool split_address(const char *bus, char host[64], char port[8])
 {
     const char *colon = strrchr(bus, ':');
@@ -95,7 +96,7 @@ static int connect_patiently(const char *bus, char error[POSE_LINK_MESSAGE_LENGT
     return client >= 0 ? client : fail(error, bus, strerror(reason), "is `wallwarp-sim run --bus PORT` running there?");
 }
 
-/** Reads one "< ... >" and compares it. */
+/* Reads one "< ... >" and compares it. */
 static bool expect(int client, const char *expected, char got[64])
 {
     size_t length = 0;
@@ -130,14 +131,14 @@ static bool send_all(int client, const char *text, size_t length)
 
 static bool shake_hands(int client, const char *bus, char error[POSE_LINK_MESSAGE_LENGTH])
 {
-    static const char *const SAY[] = {"", "< open can0 >", "< rawmode >"};
-    static const char *const HEAR[] = {"< hi >", "< ok >", "< ok >"};
+    static const char *const say[] = {"", "< open can0 >", "< rawmode >"};
+    static const char *const hear[] = {"< hi >", "< ok >", "< ok >"};
     for (int i = 0; i < 3; i++) {
         char got[64] = "";
-        if (send_all(client, SAY[i], strlen(SAY[i])) && expect(client, HEAR[i], got))
+        if (send_all(client, say[i], strlen(say[i])) && expect(client, hear[i], got))
             continue;
         char what[128];
-        snprintf(what, sizeof what, "the answer to \"%s\" was \"%.30s\"", i == 0 ? "connect" : SAY[i], got);
+        snprintf(what, sizeof what, "the answer to \"%s\" was \"%.30s\"", i == 0 ? "connect" : say[i], got);
         fail(error, bus, what, "expected a socketcand server with a bus can0");
         return false;
     }
@@ -158,7 +159,7 @@ int pose_link_socketcand_open(const char *bus, char error[POSE_LINK_MESSAGE_LENG
     return client;
 }
 
-/** Everything on the bus is sent to us; unread, it would stop the server in the end. */
+/* Everything on the bus is sent to us; unread, it would stop the server in the end. */
 static bool discard_received(int client)
 {
     char heard[4096];
@@ -183,6 +184,7 @@ static size_t text_from_frame(char text[LONGEST_SEND], const hal_can_frame_t *fr
 bool pose_link_socketcand_send(pose_link_t *link, const hal_can_frame_t *frame, int count,
                                char error[POSE_LINK_MESSAGE_LENGTH])
 {
+    assert(count >= 1 && count <= MOST_FRAMES);
     char text[MOST_FRAMES * LONGEST_SEND];
     size_t length = 0;
     for (int i = 0; i < count; i++)

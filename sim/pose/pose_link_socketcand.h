@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The TCP half of a pose link: a client of the socketcand protocol in raw mode.
-#ifndef SIM_POSE_LINK_SOCKETCAND_H
-#define SIM_POSE_LINK_SOCKETCAND_H
+#ifndef SIM_POSE_POSE_LINK_SOCKETCAND_H
+#define SIM_POSE_POSE_LINK_SOCKETCAND_H
 
 #include "sim/pose/pose_link.h"
 

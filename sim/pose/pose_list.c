@@ -7,14 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "sim/pose/decimal.h"
 #include "sim/files/file_io.h"
+#include "sim/pose/decimal.h"
 #include "sim/pose/pose_text.h"
 
 enum { COLUMNS = 1 + POSE_TEXT_FIELDS, LONGEST_LINE = 1000, TIME_PLACES = 6 };
 
-static const char HEADER[] = "time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz";
-static const int64_t LATEST_US = INT64_C(10000000000000000);
+static const char header[] = "time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz";
+static const int64_t latest_us = INT64_C(10000000000000000);
 
 typedef struct {
     const char *path;
@@ -38,7 +38,7 @@ __attribute__((format(printf, 2, 3))) static bool fail(reader_t *reader, const c
     return false;
 }
 
-/** @return 1 a line is there, without its end; 0 the file is at its end; -1 failed. */
+/* @return 1 a line is there, without its end; 0 the file is at its end; -1 failed. */
 static int next_line(reader_t *reader)
 {
     int length = 0;
@@ -76,7 +76,7 @@ static bool split(reader_t *reader, const char *field[COLUMNS])
         columns++;
     }
     return columns == COLUMNS ||
-           fail(reader, "found %d column%s, expected 8: %s", columns, columns == 1 ? "" : "s", HEADER);
+           fail(reader, "found %d column%s, expected 8: %s", columns, columns == 1 ? "" : "s", header);
 }
 
 static bool read_entry(reader_t *reader, pose_list_entry_t *entry)
@@ -94,7 +94,7 @@ static bool read_entry(reader_t *reader, pose_list_entry_t *entry)
     case DECIMAL_OK:
         break;
     }
-    if (entry->time_us < 0 || entry->time_us > LATEST_US)
+    if (entry->time_us < 0 || entry->time_us > latest_us)
         return fail(reader, "time_s: found %.40s, expected 0 to 10000000000", field[0]);
     if (reader->list.count > 0 && entry->time_us < reader->list.entry[reader->list.count - 1].time_us)
         return fail(reader, "time_s: found %.40s, expected no less than in the line before", field[0]);
@@ -120,9 +120,9 @@ static bool read_all(reader_t *reader)
     int got = next_line(reader);
     if (got < 0)
         return false;
-    if (got == 0 || strcmp(reader->line, HEADER) != 0) {
+    if (got == 0 || strcmp(reader->line, header) != 0) {
         reader->line_number = 1;
-        return fail(reader, "found \"%.60s\", expected the header %s", got == 0 ? "" : reader->line, HEADER);
+        return fail(reader, "found \"%.60s\", expected the header %s", got == 0 ? "" : reader->line, header);
     }
     while ((got = next_line(reader)) > 0) {
         pose_list_entry_t entry;

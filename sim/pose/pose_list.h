@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pose lists: CSV files of poses with their times.
-#ifndef SIM_POSE_LIST_H
-#define SIM_POSE_LIST_H
+#ifndef SIM_POSE_POSE_LIST_H
+#define SIM_POSE_POSE_LIST_H
 
 #include <stdbool.h>
 #include <stddef.h>

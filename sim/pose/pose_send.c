@@ -7,15 +7,9 @@
 #include <time.h>
 
 #include "firmware/can_protocol.h"
+#include "sim/devices/sim_clock.h"
 
 enum { PROGRESS_EVERY_US = 250000, NS_PER_US = 1000, US_PER_S = 1000000 };
-
-static int64_t now_us(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * US_PER_S + now.tv_nsec / NS_PER_US;
-}
 
 static void sleep_until_us(int64_t time_us)
 {
@@ -25,7 +19,7 @@ static void sleep_until_us(int64_t time_us)
         continue;
 }
 
-/** @return Frames made: 1, 3, or 0 when the pose does not fit. */
+/* @return Frames made: 1, 3, or 0 when the pose does not fit. */
 static int encode(hal_can_frame_t frame[CAN_POSE_PARTS], const pose_t *pose, bool fd, int64_t time_us, uint64_t number)
 {
     const uint64_t counters = fd ? CAN_E2E_P05_COUNTERS : CAN_E2E_P01_COUNTERS;
@@ -62,11 +56,11 @@ static void show(size_t sent, const pose_list_t *list, int64_t since_us)
 bool pose_send_list(pose_link_t *link, const pose_list_t *list, bool fd, bool show_progress,
                     char error[POSE_LINK_MESSAGE_LENGTH])
 {
-    const int64_t start_us = now_us();
+    const int64_t start_us = sim_clock_monotonic_us();
     int64_t shown_us = start_us;
     for (size_t i = 0; i < list->count; i++) {
         sleep_until_us(start_us + list->entry[i].time_us - list->entry[0].time_us);
-        const int64_t time_us = now_us();
+        const int64_t time_us = sim_clock_monotonic_us();
         hal_can_frame_t frame[CAN_POSE_PARTS];
         const int frames = encode(frame, &list->entry[i].pose, fd, time_us, (uint64_t)start_us + i);
         if (!pose_link_send(link, frame, frames, error))

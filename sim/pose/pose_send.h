@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sends a pose list onto a bus at its own pace.
-#ifndef SIM_POSE_SEND_H
-#define SIM_POSE_SEND_H
+#ifndef SIM_POSE_POSE_SEND_H
+#define SIM_POSE_POSE_SEND_H
 
 #include <stdbool.h>
 

@@ -4,8 +4,6 @@
 
 #include "firmware/can_protocol.h"
 
-enum { SET_COUNTERS = 15, FD_COUNTERS = 256 };
-
 bool pose_sender_open(pose_sender_t *sender, const pose_sender_config_t *config)
 {
     hal_can_t *can = sim_bus_attach(config->bus);
@@ -37,6 +35,7 @@ static bool send_pose(pose_sender_t *sender, const pose_list_entry_t *entry)
 void pose_sender_advance(pose_sender_t *sender, int64_t until_us)
 {
     const pose_list_t *list = sender->config.list;
+    const int counters = sender->config.fd ? CAN_E2E_P05_COUNTERS : CAN_E2E_P01_COUNTERS;
     while (sender->next < list->count) {
         const pose_list_entry_t *entry = &list->entry[sender->next];
         const int64_t due_us = sender->config.start_us + entry->time_us - list->entry[0].time_us;
@@ -46,7 +45,7 @@ void pose_sender_advance(pose_sender_t *sender, int64_t until_us)
         const bool sent = send_pose(sender, entry);
         sender->sent += sent;
         sender->unsent += !sent;
-        sender->counter = (uint8_t)((sender->counter + 1) % (sender->config.fd ? FD_COUNTERS : SET_COUNTERS));
+        sender->counter = (uint8_t)((sender->counter + 1) % counters);
         sender->next++;
     }
     sim_bus_advance(sender->config.bus, until_us);

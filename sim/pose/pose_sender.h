@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A tracker on the simulated bus: sends a pose list, each pose at its own time.
-#ifndef SIM_POSE_SENDER_H
-#define SIM_POSE_SENDER_H
+#ifndef SIM_POSE_POSE_SENDER_H
+#define SIM_POSE_POSE_SENDER_H
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
-#include "sim/pose/pose_list.h"
 #include "sim/bus/sim_bus.h"
+#include "sim/pose/pose_list.h"
 
 typedef struct {
     sim_bus_t *bus;

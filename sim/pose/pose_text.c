@@ -10,7 +10,7 @@
 
 enum { LONGEST_TEXT = 1023, QUATERNION_PLACES = 17, NM_PLACES = 6 };
 
-static const int64_t FARTHEST_NM = INT64_C(1000000000000);
+static const int64_t farthest_nm = INT64_C(1000000000000);
 
 const char *const pose_text_field_name[POSE_TEXT_FIELDS] = {"x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz"};
 
@@ -21,7 +21,7 @@ static bool fail(char error[POSE_TEXT_MESSAGE_LENGTH], int field, const char *fo
     return false;
 }
 
-/** 10^-17 units; their squares are below 10^36, so the sum of four is exact. */
+/* 10^-17 units; their squares are below 10^36, so the sum of four is exact. */
 static bool is_nearly_unit(const int64_t component[4])
 {
     const int128_t shortest = INT64_C(99000000000000000);
@@ -41,7 +41,7 @@ bool pose_from_fields(const char *const field[POSE_TEXT_FIELDS], pose_t *pose, c
             decimal_from_text(field[i], position ? NM_PLACES : QUATERNION_PLACES, &number[i]);
         if (status == DECIMAL_NOT_A_NUMBER)
             return fail(error, i, field[i], "a decimal number");
-        if (position && (status == DECIMAL_TOO_LARGE || number[i] > FARTHEST_NM || number[i] < -FARTHEST_NM))
+        if (position && (status == DECIMAL_TOO_LARGE || number[i] > farthest_nm || number[i] < -farthest_nm))
             return fail(error, i, field[i], "at most 1000000 mm from the origin");
         if (status == DECIMAL_TOO_LARGE)
             return fail(error, i, field[i], "-1 to 1");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Text -> pose: seven decimal numbers, exactly.
-#ifndef SIM_POSE_TEXT_H
-#define SIM_POSE_TEXT_H
+#ifndef SIM_POSE_POSE_TEXT_H
+#define SIM_POSE_POSE_TEXT_H
 
 #include <stdbool.h>
 

@@ -128,14 +128,15 @@ static void print_data(FILE *file, const run_summary_t *summary)
 {
     const room_t *room = summary->room;
     const camera_t *camera = &room->camera;
-    const int32_t stride = (summary->record->frames + PAGE_FRAMES - 1) / PAGE_FRAMES;
+    const int32_t frames = summary->record->frames;
+    const int32_t stride = frames > PAGE_FRAMES ? (frames + PAGE_FRAMES - 1) / PAGE_FRAMES : 1;
     fputs("{", file);
     print_named(file, "room", summary->room_name);
     print_named(file, "video", summary->video_name);
     print_named(file, "poses", summary->poses_name);
     print_named(file, "original", summary->original_name);
     fprintf(file, "\"rate_hz\":%.6g,\"real\":%s,\"skipped\":%" PRId64 ",\"count\":%" PRId32 ",\n", summary->rate_hz,
-            summary->real ? "true" : "false", summary->skipped, summary->record->frames);
+            summary->real ? "true" : "false", summary->skipped, frames);
     fprintf(file,
             "\"camera\":{\"width\":%" PRId32 ",\"height\":%" PRId32
             ",\"focal_px\":[%.3f,%.3f],\"principal_px\":[%.3f,%.3f]},\n",
@@ -148,9 +149,9 @@ static void print_data(FILE *file, const run_summary_t *summary)
             summary->bus.load_ppm / 1e4, run_summary_peak_load_ppm(summary) / 1e4, summary->bus.error_frames);
     fputs("\"boards\":[", file);
     for (int32_t i = 0; i < room->board_count; i++)
-        print_board(file, summary, i, stride < 1 ? 1 : stride);
+        print_board(file, summary, i, stride);
     fputs("],\n", file);
-    print_frames(file, summary->record, stride < 1 ? 1 : stride);
+    print_frames(file, summary->record, stride);
     fputs("}\n", file);
 }
 

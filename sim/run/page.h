@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of a run: index.html, which shows its pictures and plots.
-#ifndef SIM_PAGE_H
-#define SIM_PAGE_H
+#ifndef SIM_RUN_PAGE_H
+#define SIM_RUN_PAGE_H
 
 #include <stdbool.h>
 

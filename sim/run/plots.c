@@ -5,7 +5,6 @@
 #include <inttypes.h>
 #include <math.h>
 #include <signal.h>
-#include <string.h>
 #include <sys/wait.h>
 
 enum { PLOT_POINTS = 2000, COLOURS = 8, NOT_FOUND = 127 };

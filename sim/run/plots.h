@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plots of a run, as SVG files that its page shows.
-#ifndef SIM_PLOTS_H
-#define SIM_PLOTS_H
+#ifndef SIM_RUN_PLOTS_H
+#define SIM_RUN_PLOTS_H
 
 #include <stdbool.h>
 

@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "sim/eval/viewer_picture.h"
 #include "sim/files/png_file.h"
 #include "sim/run/run_judge.h"
-#include "sim/eval/viewer_picture.h"
 
 enum { LOOKS = 2, PATH_LENGTH = 4096 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pictures of one frame of a run: what the walls show, what the viewer sees, and how good it is.
-#ifndef SIM_RUN_DRAW_H
-#define SIM_RUN_DRAW_H
+#ifndef SIM_RUN_RUN_DRAW_H
+#define SIM_RUN_RUN_DRAW_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -31,7 +31,12 @@ typedef struct {
 /** Size of the viewer's pictures: the camera's, or half of it while that is wider than this. */
 enum { RUN_DRAW_VIEWER_WIDTH = 1280 };
 
-/** Make a picture of the viewer's size. @return false when memory is out. The caller frees viewer->data. */
+/**
+ * Make a picture of the viewer's size.
+ *
+ * @param[out] viewer  Written only on success; the caller frees viewer->data.
+ * @return false when memory is out.
+ */
 bool run_draw_viewer(image_t *viewer, const camera_t *camera);
 
 /**

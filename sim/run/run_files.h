@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables and the bus log of a run, written while it goes on.
-#ifndef SIM_RUN_FILES_H
-#define SIM_RUN_FILES_H
+#ifndef SIM_RUN_RUN_FILES_H
+#define SIM_RUN_RUN_FILES_H
 
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 
+#include "sim/bus/sim_bus.h"
 #include "sim/files/file_io.h"
 #include "sim/run/run_record.h"
-#include "sim/bus/sim_bus.h"
 
 /**
  * frames.csv, timings.csv and bus.log in one folder; psnr.csv is written at the end. Everything but timings.csv is the

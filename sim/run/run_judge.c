@@ -41,7 +41,7 @@ typedef struct {
 } trial_t;
 
 /* One truth: its PSNR as that kind, the limit as the next one. */
-static bool try_truth(const trial_t *trial, run_psnr_t *psnr, run_db_t kind, char error[256])
+static bool try_truth(const trial_t *trial, run_psnr_t *psnr, run_db_t kind, char error[FILE_ERROR_LENGTH])
 {
     mesh_t mesh;
     if (!mesh_sample(&mesh, trial->homography, trial->truth, trial->factor, error))
@@ -54,7 +54,7 @@ static bool try_truth(const trial_t *trial, run_psnr_t *psnr, run_db_t kind, cha
     return true;
 }
 
-static bool judge(run_psnr_t *psnr, const run_judge_t *wall, const image_t gray[3], char error[256])
+static bool judge(run_psnr_t *psnr, const run_judge_t *wall, const image_t gray[3], char error[FILE_ERROR_LENGTH])
 {
     double_homography_t homography;
     double_homography_from_fixed(&homography, wall->homography);
@@ -76,13 +76,13 @@ static bool judge(run_psnr_t *psnr, const run_judge_t *wall, const image_t gray[
     return true;
 }
 
-bool run_judge(run_psnr_t *psnr, const run_judge_t *wall, char error[256])
+bool run_judge(run_psnr_t *psnr, const run_judge_t *wall, char error[FILE_ERROR_LENGTH])
 {
     image_t gray[3] = {{.data = NULL}, {.data = NULL}, {.data = NULL}}; /* shown, picture, limit */
     bool ok =
         luma_copy(&gray[0], wall->shown) && luma_copy(&gray[1], wall->picture) && luma_copy(&gray[2], wall->shown);
     if (!ok)
-        snprintf(error, 256, "judging: out of memory");
+        snprintf(error, FILE_ERROR_LENGTH, "judging: out of memory");
     ok = ok && judge(psnr, wall, gray, error);
     for (int i = 0; i < 3; i++)
         free(gray[i].data);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // How good a shown wall is: PSNR seen from the viewer's eye, against the truth and against the limit of any method.
-#ifndef SIM_RUN_JUDGE_H
-#define SIM_RUN_JUDGE_H
+#ifndef SIM_RUN_RUN_JUDGE_H
+#define SIM_RUN_RUN_JUDGE_H
 
+#include "sim/files/file_io.h"
 #include "sim/run/run_record.h"
 #include "warp_fixed/image.h"
 
@@ -23,6 +24,6 @@ typedef struct {
  * @param[in,out] psnr   On success everything but frame and board is written.
  * @param[out]    error  On failure: one line.
  */
-bool run_judge(run_psnr_t *psnr, const run_judge_t *wall, char error[256]);
+bool run_judge(run_psnr_t *psnr, const run_judge_t *wall, char error[FILE_ERROR_LENGTH]);
 
 #endif

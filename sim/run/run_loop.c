@@ -4,24 +4,18 @@
 
 #include <inttypes.h>
 #include <stdio.h>
-#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
-enum { US_PER_S = 1000000, TERMINAL_PERIOD_US = 100000, POLL_NS = 500000 };
+#include "sim/devices/sim_clock.h"
 
-static int64_t monotonic_us(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * US_PER_S + now.tv_nsec / 1000;
-}
+enum { US_PER_S = 1000000, TERMINAL_PERIOD_US = 100000, POLL_NS = 500000 };
 
 /* In place, ten times a second, on a terminal; else a line a second. */
 static void tell_progress(run_loop_t *loop)
 {
     const bool terminal = isatty(STDERR_FILENO) == 1;
-    const int64_t now_us = monotonic_us();
+    const int64_t now_us = sim_clock_monotonic_us();
     const bool last = loop->record->frames == loop->frames;
     if (now_us - loop->told_us < (terminal ? TERMINAL_PERIOD_US : US_PER_S) && !(last && terminal))
         return;
@@ -116,7 +110,7 @@ static int64_t wait_for_blank(run_loop_t *loop, int64_t blank)
 {
     sim_bus_t *bus = sim_world_bus(loop->world);
     for (;;) {
-        const int64_t now_us = monotonic_us();
+        const int64_t now_us = sim_clock_monotonic_us();
         socketcand_server_poll(loop->server);
         sim_bus_advance(bus, now_us);
         socketcand_server_poll(loop->server);
@@ -132,14 +126,14 @@ bool run_loop_real(run_loop_t *loop)
 {
     int64_t blank = wait_for_blank(loop, 0);
     for (int64_t n = 0; n < loop->frames && !*loop->stop; n++) {
-        if (!make_step(loop, monotonic_us()))
+        if (!make_step(loop, sim_clock_monotonic_us()))
             return false;
         /* every board has presented by now: the next blank brings all their pictures */
-        const int64_t next = sim_rate_beat_at(&loop->refresh, monotonic_us()) + 1;
+        const int64_t next = sim_rate_beat_at(&loop->refresh, sim_clock_monotonic_us()) + 1;
         const int64_t reached = wait_for_blank(loop, next);
         loop->skipped += reached - blank - 1;
         blank = reached;
-        if (!hand_over(loop, monotonic_us()))
+        if (!hand_over(loop, sim_clock_monotonic_us()))
             return false;
     }
     return true;

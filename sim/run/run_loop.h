@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The frames of a run, one after the other: in virtual or in real time.
-#ifndef SIM_RUN_LOOP_H
-#define SIM_RUN_LOOP_H
+#ifndef SIM_RUN_RUN_LOOP_H
+#define SIM_RUN_RUN_LOOP_H
 
 #include <signal.h>
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "sim/bus/socketcand_server.h"
 #include "sim/pose/pose_sender.h"
 #include "sim/run/run_files.h"
 #include "sim/run/run_pictures.h"
 #include "sim/run/sim_world.h"
-#include "sim/bus/socketcand_server.h"
 
 /** What a run is made of; opened and closed by sim_run.c. */
 typedef struct {

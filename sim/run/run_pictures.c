@@ -41,6 +41,7 @@ static void finish_job(run_pictures_t *pictures, int index, bool ok, const char 
     pthread_cond_broadcast(&pictures->changed);
 }
 
+/* Called with the lock held, and gives it back for as long as the job takes. */
 static void do_job(run_pictures_t *pictures, int index, const image_t *viewer)
 {
     run_psnr_t psnr[ROOM_MAX_BOARDS];
@@ -58,8 +59,7 @@ static void *work(void *context)
 {
     run_pictures_t *pictures = context;
     image_t viewer = {.data = NULL};
-    if (!run_draw_viewer(&viewer, &pictures->config->room->camera))
-        viewer.data = NULL;
+    (void)run_draw_viewer(&viewer, &pictures->config->room->camera); /* without memory do_job() fails */
     pthread_mutex_lock(&pictures->lock);
     for (;;) {
         const int index = find_job(pictures, JOB_READY);

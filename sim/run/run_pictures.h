@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two threads that make and write the pictures of a run while the boards go on; a bounded queue before them.
-#ifndef SIM_RUN_PICTURES_H
-#define SIM_RUN_PICTURES_H
+#ifndef SIM_RUN_RUN_PICTURES_H
+#define SIM_RUN_RUN_PICTURES_H
 
 #include <stdbool.h>
 

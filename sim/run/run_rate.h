@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The refresh rate of a run, and how many frames a pose list lasts.
-#ifndef SIM_RUN_RATE_H
-#define SIM_RUN_RATE_H
+#ifndef SIM_RUN_RUN_RATE_H
+#define SIM_RUN_RUN_RATE_H
 
-#include "sim/pose/pose_list.h"
 #include "sim/devices/sim_rate.h"
+#include "sim/pose/pose_list.h"
 
 enum { RUN_RATE_USUAL_HZ = 60, RUN_RATE_MAX_HZ = 1000 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Everything that was measured during a run, frame by frame: for the tables, the plots and the page.
-#ifndef SIM_RUN_RECORD_H
-#define SIM_RUN_RECORD_H
+#ifndef SIM_RUN_RUN_RECORD_H
+#define SIM_RUN_RUN_RECORD_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -4,7 +4,6 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <string.h>
 
 const char *run_summary_method(const run_summary_t *summary, int32_t board)
 {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A finished run, for those who tell about it: the table, the plots, the page.
-#ifndef SIM_RUN_SUMMARY_H
-#define SIM_RUN_SUMMARY_H
+#ifndef SIM_RUN_RUN_SUMMARY_H
+#define SIM_RUN_RUN_SUMMARY_H
 
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 
-#include "sim/run/run_record.h"
 #include "sim/bus/sim_bus.h"
+#include "sim/run/run_record.h"
 
 typedef struct {
     const room_t *room;

@@ -4,11 +4,12 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
+#include "sim/devices/sim_clock.h"
+#include "sim/files/png_file.h"
+#include "sim/program.h"
 #include "sim/run/page.h"
 #include "sim/run/plots.h"
-#include "sim/files/png_file.h"
 #include "sim/run/run_loop.h"
 #include "sim/run/run_rate.h"
 #include "sim/run/run_summary.h"
@@ -39,12 +40,6 @@ static bool is_real(const run_t *run)
     return run->options->poses == NULL;
 }
 
-static void print_warning(void *context, const char *line)
-{
-    (void)context;
-    fprintf(stderr, "warning: %s\n", line);
-}
-
 static bool open_original(run_t *run)
 {
     const char *path = run->options->original;
@@ -64,19 +59,12 @@ static bool open_original(run_t *run)
 static bool open_inputs(run_t *run)
 {
     const sim_run_options_t *options = run->options;
-    if (!room_load(&run->room, options->room, print_warning, NULL, run->error))
+    if (!room_load(&run->room, options->room, program_warn, NULL, run->error))
         return false;
     if (options->poses != NULL && !pose_list_load(&run->poses, options->poses, run->error))
         return false;
     run->video = video_open(options->video, run->room.camera.width, run->room.camera.height, run->error);
     return run->video != NULL && open_original(run);
-}
-
-static int64_t monotonic_us(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
 }
 
 static void plan(run_t *run)
@@ -86,7 +74,7 @@ static void plan(run_t *run)
     loop->refresh = options->rate_hz > 0 ? run_rate_from_hz(options->rate_hz)
                     : is_real(run)       ? run_rate_from_hz(RUN_RATE_USUAL_HZ)
                                          : run_rate_of_poses(&run->poses);
-    loop->start_us = is_real(run) ? monotonic_us() : 0;
+    loop->start_us = is_real(run) ? sim_clock_monotonic_us() : 0;
     loop->frames = options->frames > 0 ? options->frames
                    : is_real(run)      ? INT64_MAX
                                        : run_rate_frames(&loop->refresh, &run->poses);
@@ -202,7 +190,7 @@ int sim_run(const sim_run_options_t *options, const volatile sig_atomic_t *stop)
     run_t *run = calloc(1, sizeof *run);
     if (run == NULL) {
         fprintf(stderr, "wallwarp-sim run: out of memory\n");
-        return 1;
+        return PROGRAM_FAILED;
     }
     run->options = options;
     bool ok = open_inputs(run);
@@ -212,5 +200,5 @@ int sim_run(const sim_run_options_t *options, const volatile sig_atomic_t *stop)
     if (!ok)
         fprintf(stderr, "wallwarp-sim run: %s\n", run->error);
     close_run(run);
-    return ok ? 0 : 1;
+    return ok ? PROGRAM_DONE : PROGRAM_FAILED;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of a whole room: from a pose list in virtual time, or in real time with the bus open on a port.
-#ifndef SIM_SIM_RUN_H
-#define SIM_SIM_RUN_H
+#ifndef SIM_RUN_SIM_RUN_H
+#define SIM_RUN_SIM_RUN_H
 
 #include <signal.h>
 #include <stdint.h>

@@ -3,7 +3,6 @@
 #include "sim/run/sim_world.h"
 
 #include <stdlib.h>
-#include <time.h>
 
 #include "sim/devices/sim_camera.h"
 #include "sim/devices/sim_clock.h"
@@ -22,13 +21,6 @@ struct sim_world {
     sim_bus_t *bus;
     node_t node[ROOM_MAX_BOARDS];
 };
-
-static int64_t monotonic_us(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
-}
 
 static bool open_devices(sim_world_t *world, int32_t index, char error[FILE_ERROR_LENGTH])
 {
@@ -152,9 +144,9 @@ bool sim_world_step(sim_world_t *world, int64_t now_us, char error[FILE_ERROR_LE
         ok &= sim_camera_advance(devices->camera, now_us, error);
     }
     for (int32_t i = 0; i < world->config.room->board_count; i++) {
-        const int64_t begin_us = monotonic_us();
+        const int64_t begin_us = sim_clock_monotonic_us();
         projector_step(world->node[i].projector);
-        world->node[i].step_time_us = monotonic_us() - begin_us;
+        world->node[i].step_time_us = sim_clock_monotonic_us() - begin_us;
     }
     return ok;
 }

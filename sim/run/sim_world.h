@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // A room in one process: every board with its devices and the real firmware, on one simulated bus.
-#ifndef SIM_SIM_WORLD_H
-#define SIM_SIM_WORLD_H
+#ifndef SIM_RUN_SIM_WORLD_H
+#define SIM_RUN_SIM_WORLD_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
 #include "firmware/projector.h"
 #include "firmware/room.h"
-#include "sim/files/file_io.h"
 #include "sim/bus/sim_bus.h"
 #include "sim/devices/sim_rate.h"
+#include "sim/files/file_io.h"
 #include "sim/files/video_file.h"
 
 typedef struct sim_world sim_world_t;

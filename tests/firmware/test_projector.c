@@ -2,6 +2,8 @@
 // Tests of the loop body: its states over virtual time, and what a lost camera does to them.
 #include "tests/firmware/projector_bench.h"
 
+#include <stdlib.h>
+
 static void test_waits_for_the_first_pose_with_the_safe_picture(void **state)
 {
     (void)state;

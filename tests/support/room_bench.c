@@ -5,7 +5,6 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -106,7 +105,7 @@ static void send_pose(room_bench_t *bench)
         .pose = room_bench_pose(bench->poses),
         .capture_time_us = (uint64_t)bench->poses * 16667 % CAN_POSE_SET_WRAP_US,
         .quality = CAN_POSE_TRACKED,
-        .counter = (uint8_t)(bench->poses % (fd ? 256 : 15)),
+        .counter = (uint8_t)(bench->poses % (fd ? CAN_E2E_P05_COUNTERS : CAN_E2E_P01_COUNTERS)),
     };
     bench->poses++;
     assert_true(fd ? can_pose_fd_encode(frame, &pose) : can_pose_set_encode(frame, &pose));

@@ -21,7 +21,7 @@ enum { MAX_TEXT = 4096 };
     "        - [-2000, 1125, 0]\n"                                                                                     \
     "        - [-2000, 1125, -4000]\n"
 
-// Uses every key.
+/* Uses every key. */
 static const char full_room[] =
     "camera: {width: 4, height: 3, focal_px: [318.75, 322.222222], principal_px: [-1, 1e1]}\n"
     "boards:\n"
@@ -40,7 +40,7 @@ static const char full_room[] =
     "    wall:\n"
     "      corners_mm:\n" LEFT_CORNERS "can: {bitrate: 250000, data_bitrate: 1000000, fd: false}\n";
 
-// All warnings of one load, one per line.
+/* All warnings of one load, one per line. */
 typedef struct {
     int count;
     char lines[MAX_TEXT];
@@ -62,7 +62,7 @@ static void load_good(room_t *room, const char *path, heard_t *heard)
         fail_msg("refused: %s", error);
 }
 
-// The full room with one piece of its text replaced.
+/* The full room with one piece of its text replaced. */
 static void write_changed(const char *path, const char *old, const char *new)
 {
     const char *at = strstr(full_room, old);

@@ -5,7 +5,6 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,7 +61,7 @@ static void insert_bytes(text_t *text, size_t at, const char *bytes, size_t coun
     text->length += count;
 }
 
-// [begin, end) of the line around a position.
+/* [begin, end) of the line around a position. */
 static void line_around(const text_t *text, size_t at, size_t *begin, size_t *end)
 {
     *begin = *end = at;
@@ -136,7 +135,7 @@ static const char *room_fault(const room_t *room)
     return NULL;
 }
 
-// "PATH:LINE: KEY: found, expected" in one line, and never left to libcyaml's words.
+/* "PATH:LINE: KEY: found, expected" in one line, and never left to libcyaml's words. */
 static const char *message_fault(const char *error, const char *path)
 {
     const size_t length = strlen(path);
@@ -175,7 +174,7 @@ static void test_damaged_rooms_are_refused_or_sound(void **state)
             fail_msg("seed %llu, round %llu: %s\n%s\n%.*s", (unsigned long long)seed, (unsigned long long)round, fault,
                      error, (int)text.length, text.bytes);
     }
-    // Both outcomes must be common, or the damage is of the wrong kind.
+    /* Both outcomes must be common, or the damage is of the wrong kind. */
     assert_true(good > ROUNDS / 50 && good < ROUNDS / 2);
 }
 

@@ -16,7 +16,7 @@
 
 enum { BIG = 1 << 20 };
 
-// Refused with exactly this message after "PATH:", and the room untouched.
+/* Refused with exactly this message after "PATH:", and the room untouched. */
 static void expect_refused(const char *path, const char *message)
 {
     static room_t room, untouched;
@@ -31,7 +31,7 @@ static void expect_refused(const char *path, const char *message)
     assert_memory_equal(&room, &untouched, sizeof room);
 }
 
-// The first line of each bad room is a comment: the message that it must give.
+/* The first line of each bad room is a comment: the message that it must give. */
 static void expect_as_stated(const char *path)
 {
     char message[ROOM_MESSAGE_LENGTH] = "";
@@ -87,7 +87,7 @@ static void test_huge_files_are_refused(void **state)
     free(text);
 }
 
-// libyaml alone would take minutes over these.
+/* libyaml alone would take minutes over these. */
 static void test_deep_nesting_is_refused(void **state)
 {
     char path[SCRATCH_PATH_LENGTH];

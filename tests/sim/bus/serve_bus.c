@@ -7,22 +7,16 @@
 
 #include "sim/bus/sim_bus.h"
 #include "sim/bus/socketcand_server.h"
+#include "sim/devices/sim_clock.h"
 
-static int64_t clock_us(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (int64_t)now.tv_sec * 1000000 + now.tv_nsec / 1000;
-}
-
-/** Run the bus with the clock; a board sends a counter as identifier 7FF at the rate asked for. */
+/* Run the bus with the clock; a board sends a counter as identifier 7FF at the rate asked for. */
 static void serve(sim_bus_t *bus, socketcand_server_t *server, int64_t seconds, int64_t rate)
 {
     hal_can_t *board = sim_bus_attach(bus);
-    const int64_t start_us = clock_us();
+    const int64_t start_us = sim_clock_monotonic_us();
     int64_t now_us = 0, count = 0;
     while (board != NULL && now_us < seconds * 1000000) {
-        now_us = clock_us() - start_us;
+        now_us = sim_clock_monotonic_us() - start_us;
         sim_bus_advance(bus, now_us);
         for (; count * 1000000 < now_us * rate; count++) {
             const hal_can_frame_t frame = {.id = 0x7FF, .length = 2, .data = {(uint8_t)(count >> 8), (uint8_t)count}};

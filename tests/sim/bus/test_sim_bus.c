@@ -36,7 +36,7 @@ static void test_64_controllers_and_no_more(void **state)
     sim_bus_destroy(bus);
 }
 
-/** Identifier 0 without data: 53 bits of 2 us, of which 3 are intermission. */
+/* Identifier 0 without data: 53 bits of 2 us, of which 3 are intermission. */
 static void test_frame_is_heard_by_the_others_when_its_last_bit_is_over(void **state)
 {
     (void)state;
@@ -145,7 +145,7 @@ static void test_equal_identifiers_keep_order_and_collisions_are_counted(void **
     sim_bus_destroy(bus);
 }
 
-/** A later frame of a lower identifier, queued at the same moment by a board that steps later, still wins. */
+/* A later frame of a lower identifier, queued at the same moment by a board that steps later, still wins. */
 static void test_frames_queued_at_the_moment_reached_arbitrate_together(void **state)
 {
     (void)state;
@@ -165,7 +165,7 @@ static void test_frames_queued_at_the_moment_reached_arbitrate_together(void **s
     sim_bus_destroy(bus);
 }
 
-/** One frame of 53 bits of 10 us begins 100 us before a window ends. */
+/* One frame of 53 bits of 10 us begins 100 us before a window ends. */
 static void test_window_load_is_that_of_the_last_full_second(void **state)
 {
     (void)state;

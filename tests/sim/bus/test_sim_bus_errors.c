@@ -32,7 +32,7 @@ static void test_error_frames_are_counted_and_the_frame_is_sent_again(void **sta
     sim_bus_destroy(bench.bus);
 }
 
-/** 16 errors make the sender passive, 32 bus-off; it is back 128 x 11 bits after the restart. */
+/* 16 errors make the sender passive, 32 bus-off; it is back 128 x 11 bits after the restart. */
 static void test_errors_lead_to_passive_and_bus_off_and_back(void **state)
 {
     (void)state;
@@ -68,7 +68,7 @@ static void test_errors_lead_to_passive_and_bus_off_and_back(void **state)
     sim_bus_destroy(bench.bus);
 }
 
-/** An error passive sender gives way for 8 bits after each of its frames. */
+/* An error passive sender gives way for 8 bits after each of its frames. */
 static void test_passive_sender_suspends_transmission(void **state)
 {
     (void)state;

@@ -16,7 +16,7 @@ enum { NODES = 5, STEPS = 300 };
 static const sim_bus_config_t classic = {.bitrate = 500000};
 static const sim_bus_config_t fd = {.bitrate = 1000000, .data_bitrate = 5000000, .fd = true};
 
-/** A bus with nodes and a log of what they send. */
+/* A bus with nodes and a log of what they send. */
 typedef struct {
     sim_bus_t *bus;
     hal_can_t *node[NODES];
@@ -43,7 +43,7 @@ static void assert_same_frame(const hal_can_frame_t *a, const hal_can_frame_t *b
     assert_memory_equal(a->data, b->data, a->length);
 }
 
-/** The arbitration field as text: a dominant 0 sorts before a recessive 1, as it wins on the wire. */
+/* The arbitration field as text: a dominant 0 sorts before a recessive 1, as it wins on the wire. */
 static void arbitration_text(char text[34], const hal_can_frame_t *frame)
 {
     memset(text, '0', 33);
@@ -94,7 +94,7 @@ static void test_whatever_is_pending_is_sent_in_order_of_arbitration(void **stat
     }
 }
 
-/** Every other node heard frame number i of the log next. */
+/* Every other node heard frame number i of the log next. */
 static void assert_heard_by_others(const bench_t *bench, int i)
 {
     for (int n = 0; n < NODES; n++) {
@@ -147,7 +147,7 @@ static void test_nothing_is_lost_or_early_and_the_wire_is_busy_for_the_exact_bit
     }
 }
 
-/** 240 pose sets a second of three 8-byte frames of 111 to 135 bits; a board adds nothing. */
+/* 240 pose sets a second of three 8-byte frames of 111 to 135 bits; a board adds nothing. */
 static void test_pose_sets_at_240_hz_load_500_kbit_between_16_and_19_percent(void **state)
 {
     (void)state;

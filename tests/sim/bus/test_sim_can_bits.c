@@ -23,7 +23,7 @@ static uint64_t next_random(uint64_t *state)
     return *state;
 }
 
-/** Payloads are random bytes, or long runs that need much stuffing. */
+/* Payloads are random bytes, or long runs that need much stuffing. */
 static hal_can_frame_t random_frame(uint64_t *state)
 {
     hal_can_frame_t frame = {.extended = next_random(state) % 2, .fd = next_random(state) % 2};
@@ -38,7 +38,7 @@ static hal_can_frame_t random_frame(uint64_t *state)
     return frame;
 }
 
-/** Bits as characters, so that the oracle shares nothing with the code under test. */
+/* Bits as characters, so that the oracle shares nothing with the code under test. */
 typedef struct {
     char bit[LONGEST_STREAM];
     int count;
@@ -50,7 +50,7 @@ static void put(text_t *text, uint32_t value, int count)
         text->bit[text->count++] = (value >> i & 1U) != 0 ? '1' : '0';
 }
 
-/** CRC-15 by long division of the whole stream. */
+/* CRC-15 by long division of the whole stream. */
 static void put_crc15(text_t *text)
 {
     static const char divisor[] = "1100010110011001";
@@ -66,7 +66,7 @@ static void put_crc15(text_t *text)
     text->count += 15;
 }
 
-/** Stuff bits in text[0..count), each told by the index of the bit it follows; returns how many follow [begin, end). */
+/* Stuff bits in text[0..count), each told by the index of the bit it follows; returns how many follow [begin, end). */
 static int stuff_bits(const text_t *text, int count, int begin, int end)
 {
     int found = 0;
@@ -127,28 +127,28 @@ static void assert_bits(const hal_can_frame_t *frame, int arbitration, int data)
     assert_int_equal(bits.data, data);
 }
 
-/** 34 zeros to the end of the CRC, so 6 stuff bits; then delimiter, ACK 2, end 7, intermission 3. */
+/* 34 zeros to the end of the CRC, so 6 stuff bits; then delimiter, ACK 2, end 7, intermission 3. */
 static void test_empty_classic_frame_of_identifier_0(void **state)
 {
     (void)state;
     assert_bits(&(hal_can_frame_t){.id = 0}, 34 + 6 + 1 + 2 + 7 + 3, 0);
 }
 
-/** 14 zeros with 2 stuff bits, FDF, 7 zeros with 1; 4 + 17 + 6 bits of CRC field; delimiter; 12 bits of tail. */
+/* 14 zeros with 2 stuff bits, FDF, 7 zeros with 1; 4 + 17 + 6 bits of CRC field; delimiter; 12 bits of tail. */
 static void test_empty_fd_frame_of_identifier_0(void **state)
 {
     (void)state;
     assert_bits(&(hal_can_frame_t){.id = 0, .fd = true}, 14 + 2 + 1 + 7 + 1 + 27 + 1 + 12, 0);
 }
 
-/** With BRS recessive the five zeros after it end the data: the first fixed stuff bit stands for theirs. */
+/* With BRS recessive the five zeros after it end the data: the first fixed stuff bit stands for theirs. */
 static void test_fixed_stuff_bit_replaces_a_due_one(void **state)
 {
     (void)state;
     assert_bits(&(hal_can_frame_t){.id = 0, .fd = true, .bit_rate_switch = true}, 14 + 2 + 3 + 12, 5 + 27 + 1);
 }
 
-/** Identifier 555h and bytes 55h need no stuff bit in arbitration and data: 17 + 12, and 5 + 256 + 32 + 1. */
+/* Identifier 555h and bytes 55h need no stuff bit in arbitration and data: 17 + 12, and 5 + 256 + 32 + 1. */
 static void test_fd_frame_of_32_bytes_without_stuffing(void **state)
 {
     (void)state;
@@ -160,7 +160,7 @@ static void test_fd_frame_of_32_bytes_without_stuffing(void **state)
     assert_bits(&frame, 29 + 19, 294);
 }
 
-/** Random payloads reach the least; runs of four and five bits come near the most. */
+/* Random payloads reach the least; runs of four and five bits come near the most. */
 static void test_unstuffed_classic_frame_of_8_bytes_has_111_bits(void **state)
 {
     (void)state;
@@ -178,7 +178,7 @@ static void test_unstuffed_classic_frame_of_8_bytes_has_111_bits(void **state)
     assert_in_range(most, 111, 135);
 }
 
-/** Least: no stuffing. Most: a stuff bit after the first 5 of the stuffed bits, then one each 4 of them. */
+/* Least: no stuffing. Most: a stuff bit after the first 5 of the stuffed bits, then one each 4 of them. */
 static void assert_within_formula(const hal_can_frame_t *frame, uint64_t seed, int index)
 {
     const sim_can_bits_t bits = sim_can_bits(frame);

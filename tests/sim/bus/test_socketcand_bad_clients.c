@@ -119,7 +119,7 @@ static void test_client_that_does_not_read_is_dropped(void **state)
     socketcand_bench_end(&bench);
 }
 
-/** Random bytes, many of them from the protocol's own words: no crash, and a clean echo afterwards. */
+/* Random bytes, many of them from the protocol's own words: no crash, and a clean echo afterwards. */
 static void test_random_input_is_survived(void **state)
 {
     (void)state;

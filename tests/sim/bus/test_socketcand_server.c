@@ -118,7 +118,7 @@ static void test_commands_in_pieces_and_merged(void **state)
     socketcand_bench_end(&bench);
 }
 
-/** 200 frames at once are more than a transmit queue holds, and keep their order whatever their identifiers. */
+/* 200 frames at once are more than a transmit queue holds, and keep their order whatever their identifiers. */
 static void test_burst_waits_for_room_and_keeps_order(void **state)
 {
     (void)state;

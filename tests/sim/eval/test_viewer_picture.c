@@ -8,7 +8,6 @@
 #include <cmocka.h>
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "sim/eval/viewer_picture.h"
 #include "tests/support/homography_of.h"

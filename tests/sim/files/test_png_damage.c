@@ -9,9 +9,9 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <cmocka.h>
+#include <zlib.h>
 
 #include "tests/support/scratch.h"
 

@@ -60,7 +60,7 @@ static void test_written_pictures_come_back(void **state)
     }
 }
 
-/** A PNG to be written with libpng itself. Samples are 16 bits each here, row by row, cut to depth when written. */
+/* A PNG to be written with libpng itself. Samples are 16 bits each here, row by row, cut to depth when written. */
 typedef struct {
     int colour_type, depth, interlace;
     bool transparent_key; /**< the colour of the first pixel is transparent; a palette gets alphas */

@@ -10,10 +10,10 @@
 
 #include <cmocka.h>
 
-#include "sim/files/numbered_name.h"
-#include "sim/files/png_file.h"
 #include "sim/devices/sim_rate.h"
 #include "sim/devices/test_pattern.h"
+#include "sim/files/numbered_name.h"
+#include "sim/files/png_file.h"
 #include "tests/support/scratch.h"
 
 enum { W = 6, H = 4 };

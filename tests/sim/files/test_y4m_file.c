@@ -14,7 +14,7 @@
 
 enum { MOST_BYTES = 20000 };
 
-/** A file being put together. */
+/* A file being put together. */
 typedef struct {
     uint8_t bytes[MOST_BYTES];
     size_t length;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests of pose texts: exact numbers, refusals with a reason.
-#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
