@@ -58,12 +58,13 @@ $(BUILD)/obj/%.c.o: %.c
 $(BUILD)/obj/sim/run/page.S.o: sim/run/page.html sim/run/page.js
 $(BUILD)/obj/%.S.o: %.S
 	@mkdir -p $(@D)
+	$(if $(V),,@echo "  AS    $<")
 	$(Q)$(CC) -I. -c $< -o $@
 
 define archive
 $(BUILD)/lib$(1).a: $(call objects,$(2))
 	$(if $(V),,@echo "  AR    $$@")
-	$(Q)rm -f $$@ && $$(AR) rcs $$@ $$^
+	$(Q)rm -f $$@ && $$(AR) rcsP $$@ $$^
 endef
 $(eval $(call archive,warp,$(WARP_C)))
 $(eval $(call archive,firmware,$(FIRMWARE_C)))

@@ -23,7 +23,7 @@ static const can_field_t HEARTBEAT_STATE = {12, 4}, HEARTBEAT_FRAME = {16, 16}, 
 static const can_field_t STATUS_WARP_TIME = {12, 10}, STATUS_POSE_AGE = {22, 10}, STATUS_STEP = {32, 14},
                          STATUS_FAULTS = {46, 10}, STATUS_POSE_COUNTER = {56, 8};
 
-/** To nearest, ties away from zero. */
+/* To nearest, ties away from zero. */
 static int64_t rounded(int64_t value, int64_t divisor)
 {
     return (value + (value < 0 ? -divisor / 2 : divisor / 2)) / divisor;
@@ -36,13 +36,13 @@ static hal_can_frame_t classic_frame(uint32_t id, uint8_t counter)
     return frame;
 }
 
-/** The last step of every classic encoder. */
+/* The last step of every classic encoder. */
 static void protect_p01(hal_can_frame_t *frame)
 {
     frame->data[0] = can_e2e_p01_crc((uint16_t)frame->id, frame->data, CLASSIC_LENGTH);
 }
 
-/** The first step of every classic decoder; the identifier has been seen to be right. */
+/* The first step of every classic decoder; the identifier has been seen to be right. */
 static can_check_t check_p01(const hal_can_frame_t *frame)
 {
     if (frame->fd || frame->length != CLASSIC_LENGTH)

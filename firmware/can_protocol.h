@@ -105,15 +105,16 @@ typedef enum {
     CAN_BOARD_FAULT = 4    /**< something of the board itself has failed, see the fault flags */
 } can_board_state_t;
 
-/** Faults of the board that last at the moment of sending. Bits are never reused for something else. */
+/** Faults of the board: the camera's as it is at the moment of sending, the others since the last heartbeat. Bits are
+ *  never reused for something else. */
 typedef enum {
-    CAN_FAULT_BUS = 1 << 0,      /**< frames were refused or lost since the last heartbeat */
-    CAN_FAULT_BUS_OFF = 1 << 1,  /**< the controller was bus-off since the last heartbeat */
+    CAN_FAULT_BUS = 1 << 0,      /**< frames were refused or lost */
+    CAN_FAULT_BUS_OFF = 1 << 1,  /**< the controller was bus-off */
     CAN_FAULT_CAMERA = 1 << 2,   /**< no new picture */
     CAN_FAULT_DISPLAY = 1 << 3,  /**< the panel refused a picture */
     CAN_FAULT_GPIO = 1 << 4,     /**< a line could not be driven */
     CAN_FAULT_WATCHDOG = 1 << 5, /**< the watchdog could not be fed */
-    CAN_FAULT_DEADLINE = 1 << 6  /**< a picture was not ready at its vertical blank since the last heartbeat */
+    CAN_FAULT_DEADLINE = 1 << 6  /**< a picture was not ready at its vertical blank */
 } can_fault_flag_t;
 
 /** A board's sign of life, every CAN_HEARTBEAT_PERIOD_MS. */
@@ -135,9 +136,9 @@ can_check_t can_heartbeat_decode(can_heartbeat_t *heartbeat, const hal_can_frame
 typedef struct {
     uint8_t node;          /**< 1 to CAN_MAX_NODE */
     uint8_t counter;       /**< 0 to 14 */
-    uint8_t pose_counter;  /**< of the pose in the newest picture */
+    uint8_t pose_counter;  /**< of the pose in the newest corrected picture */
     uint32_t pose_age_ms;  /**< its age, since it was received, when the picture was begun; up to 1023 */
-    uint32_t step_q8;      /**< step k of the newest picture (eq 4, 5), in 1/256; up to 16383, nearly 64 */
+    uint32_t step_q8;      /**< step k of the newest corrected picture (eq 4, 5), in 1/256; up to 16383, nearly 64 */
     uint32_t warp_time_us; /**< what the newest picture took to make; rounded to 100 us, up to 102300 */
     uint32_t can_faults;   /**< sum of all CAN fault counters; sent modulo 1024 */
 } can_status_t;

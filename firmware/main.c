@@ -85,7 +85,7 @@ static bool open_board(hal_board_t *devices, const options_t *options, const roo
         .data_bitrate = room->data_bitrate,
         .fd = room->fd,
     };
-    char error[256];
+    char error[HAL_BOARD_ERROR_LENGTH];
     fprintf(stderr, "wallwarp: board \"%s\" on %s: can %s, camera %s, display %s\n", board->name, options->devices.name,
             options->devices.can, options->devices.camera, options->devices.display);
     if (hal_board_open(devices, &options->devices, &needs, error) == HAL_OK)
@@ -100,8 +100,9 @@ static void run(const room_t *room, const room_board_t *board, const hal_board_t
     projector_init(&projector, room, board, devices, &warp_kernels_scalar);
     while (!stop_requested) {
         projector_step(&projector);
-        if (hal_display_wait_vblank(devices->display) != HAL_OK)
-            continue; /* no display: the next step counts it, and the call has waited */
+        if (hal_display_wait_vblank(devices->display) != HAL_OK) {
+            /* no display: the call has waited all the same, and the next step counts it */
+        }
     }
 }
 

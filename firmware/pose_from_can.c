@@ -27,7 +27,7 @@ static void count_check(can_faults_t *faults, can_check_t check)
     }
 }
 
-/** @return Does the frame with this counter carry on the sequence, or is it a duplicate or stale? Counts either way. */
+/* @return Does the frame with this counter carry on the sequence, or is it a duplicate or stale? Counts either way. */
 static bool carries_on(can_sequence_t *sequence, int counter, int counters, int64_t time_us, can_faults_t *faults)
 {
     const bool first = !sequence->any;
@@ -80,7 +80,7 @@ static void take_pose(can_poses_t *poses, const can_pose_t *pose, int64_t time_u
     }
 }
 
-/** @return Was it this viewer's FD pose, good or bad? */
+/* @return Was it this viewer's FD pose, good or bad? */
 static bool take_fd(can_poses_t *poses, const hal_can_frame_t *frame, can_faults_t *faults)
 {
     can_pose_t pose;

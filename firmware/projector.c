@@ -2,8 +2,6 @@
 // The loop body: the stages of a frame by name, in order.
 #include "firmware/projector.h"
 
-#include <string.h>
-
 #include "firmware/safe_picture.h"
 
 void projector_init(projector_t *projector, const room_t *room, const room_board_t *board, const hal_board_t *devices,

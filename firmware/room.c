@@ -13,7 +13,7 @@
 #include "firmware/room/room_text.h"
 #include "firmware/room/room_walls.h"
 
-// What libcyaml has to say: its first error is the reason, what follows is its way there.
+/* What libcyaml has to say: its first error is the reason, what follows is its way there. */
 typedef struct {
     const room_report_t *report;
     char reason[128];

@@ -2,9 +2,8 @@
 // Heartbeat and status of a board, onto the bus.
 #include "firmware/telemetry.h"
 
+#include "firmware/can_e2e.h"
 #include "firmware/projector.h"
-
-enum { P01_COUNTERS = 15 };
 
 void telemetry_init(telemetry_t *telemetry, int64_t now_us)
 {
@@ -49,9 +48,18 @@ static void send_heartbeat(projector_t *p, int64_t now_us)
         .frame_number = p->report.frame_number,
         .uptime_s = (uint32_t)((now_us - t->start_us) / 1000000),
     };
-    t->heartbeat_counter = (uint8_t)((t->heartbeat_counter + 1) % P01_COUNTERS);
+    t->heartbeat_counter = (uint8_t)((t->heartbeat_counter + 1) % CAN_E2E_P01_COUNTERS);
     hal_can_frame_t frame;
     send(p, can_heartbeat_encode(&frame, &heartbeat), &frame);
+}
+
+/* A pose that came while the step was at work is not of negative age; long silence does not wrap. */
+static uint32_t pose_age_ms(const projector_t *p, int64_t now_us)
+{
+    const int64_t age_ms = (now_us - p->poses.received_us) / 1000;
+    if (!p->poses.any || age_ms > UINT16_MAX)
+        return UINT16_MAX;
+    return age_ms > 0 ? (uint32_t)age_ms : 0;
 }
 
 static void send_status(projector_t *p, int64_t now_us)
@@ -62,12 +70,12 @@ static void send_status(projector_t *p, int64_t now_us)
         .node = (uint8_t)p->node,
         .counter = t->status_counter,
         .pose_counter = p->report.pose.counter,
-        .pose_age_ms = p->poses.any ? (uint32_t)((now_us - p->poses.received_us) / 1000) : UINT32_MAX,
+        .pose_age_ms = pose_age_ms(p, now_us),
         .step_q8 = (uint32_t)step_q16 >> 8,
         .warp_time_us = (uint32_t)p->report.warp_time_us,
         .can_faults = can_faults_total(&p->can_faults),
     };
-    t->status_counter = (uint8_t)((t->status_counter + 1) % P01_COUNTERS);
+    t->status_counter = (uint8_t)((t->status_counter + 1) % CAN_E2E_P01_COUNTERS);
     hal_can_frame_t frame;
     send(p, can_status_encode(&frame, &status), &frame);
 }

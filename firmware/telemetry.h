@@ -15,6 +15,7 @@ typedef struct {
     uint32_t seen_bus, seen_bus_off, seen_display, seen_gpio, seen_watchdog, seen_deadline;
 } telemetry_t;
 
+/** Start to count from now on; the first messages are due at once. */
 void telemetry_init(telemetry_t *telemetry, int64_t now_us);
 
 /** Send what is due: a status every CAN_STATUS_PERIOD_MS, a heartbeat every CAN_HEARTBEAT_PERIOD_MS. Never blocks. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A board: its devices by handle, and the table that says which they are.
-#ifndef HAL_BOARD_H
-#define HAL_BOARD_H
+#ifndef HAL_HAL_BOARD_H
+#define HAL_HAL_BOARD_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -13,6 +13,8 @@
 #include "hal/hal_status.h"
 #include "hal/hal_time.h"
 #include "hal/hal_watchdog.h"
+
+enum { HAL_BOARD_ERROR_LENGTH = 256 };
 
 /** The open devices of one board. Handles are opaque; each HAL defines the structs behind them. */
 typedef struct {
@@ -49,11 +51,11 @@ typedef struct {
  * @param[out] board   Written only when HAL_OK is returned.
  * @param      table   Which devices; must live as long as the board is open.
  * @param      needs   Sizes and rates.
- * @param[out] error   On failure: one line, what failed, with which device, and what to do. 256 bytes.
- * @return HAL_OK; HAL_BAD_CALL when a name or size is wrong; HAL_IO when a device is missing or refuses.
+ * @param[out] error   On failure: one line, what failed, with which device, and what to do.
+ * @return HAL_OK; HAL_IO when a name or size is wrong, or a device is missing or refuses.
  */
 MUST_CHECK hal_status_t hal_board_open(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
-                                       char error[256]);
+                                       char error[HAL_BOARD_ERROR_LENGTH]);
 
 /** Close every device, in reverse, and leave the outputs in their safe state. */
 void hal_board_close(hal_board_t *board);

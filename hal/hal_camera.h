@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contract of a video source: a camera sensor, an HDMI receiver, or a file in the simulator.
-#ifndef HAL_CAMERA_H
-#define HAL_CAMERA_H
+#ifndef HAL_HAL_CAMERA_H
+#define HAL_HAL_CAMERA_H
 
 #include <stdint.h>
 

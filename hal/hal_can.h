@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contract of a CAN controller: classic CAN 2.0B and CAN FD frames (ISO 11898-1), without blocking.
-#ifndef HAL_CAN_H
-#define HAL_CAN_H
+#ifndef HAL_HAL_CAN_H
+#define HAL_HAL_CAN_H
 
 #include <stdbool.h>
 #include <stdint.h>

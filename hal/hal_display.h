@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contract of the projector's own display: draw into a back buffer, show it at the next vertical blank.
-#ifndef HAL_DISPLAY_H
-#define HAL_DISPLAY_H
+#ifndef HAL_HAL_DISPLAY_H
+#define HAL_HAL_DISPLAY_H
 
 #include <stdint.h>
 

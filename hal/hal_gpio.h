@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contract of the board's few digital lines, named by what they do.
-#ifndef HAL_GPIO_H
-#define HAL_GPIO_H
+#ifndef HAL_HAL_GPIO_H
+#define HAL_HAL_GPIO_H
 
 #include <stdbool.h>
 #include <stdint.h>

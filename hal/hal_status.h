@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every HAL call returns.
-#ifndef HAL_STATUS_H
-#define HAL_STATUS_H
+#ifndef HAL_HAL_STATUS_H
+#define HAL_HAL_STATUS_H
 
 #define MUST_CHECK __attribute__((warn_unused_result))
 

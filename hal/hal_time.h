@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contract of the board's clock.
-#ifndef HAL_TIME_H
-#define HAL_TIME_H
+#ifndef HAL_HAL_TIME_H
+#define HAL_HAL_TIME_H
 
 #include <stdint.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contract of the watchdog: unfed for its period (2 s), it resets the board.
-#ifndef HAL_WATCHDOG_H
-#define HAL_WATCHDOG_H
+#ifndef HAL_HAL_WATCHDOG_H
+#define HAL_HAL_WATCHDOG_H
 
 #include "hal/hal_status.h"
 

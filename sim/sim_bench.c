@@ -16,9 +16,10 @@
 #include "sim/devices/sim_watchdog.h"
 #include "sim/files/png_file.h"
 
-enum { REFRESH_HZ = 60, WATCHDOG_US = 2000000, PICTURE_PERIOD_US = 1000000, LAST_PORT = 65535, BOARD_ERROR = 256 };
+enum { REFRESH_HZ = 60, WATCHDOG_US = 2000000, PICTURE_PERIOD_US = 1000000, LAST_PORT = 65535 };
 
-_Static_assert((int)BOARD_ERROR >= (int)FILE_ERROR_LENGTH && (int)BOARD_ERROR >= (int)SOCKETCAND_ERROR_LENGTH,
+_Static_assert((int)HAL_BOARD_ERROR_LENGTH >= (int)FILE_ERROR_LENGTH &&
+                   (int)HAL_BOARD_ERROR_LENGTH >= (int)SOCKETCAND_ERROR_LENGTH,
                "what the devices say of a failure must fit what hal_board_open() is given");
 
 typedef struct {
@@ -62,7 +63,8 @@ static void move_world(void *context)
     write_picture(b, now_us);
 }
 
-static bool open_bus(bench_t *b, const board_table_t *table, const hal_board_needs_t *needs, char error[BOARD_ERROR])
+static bool open_bus(bench_t *b, const board_table_t *table, const hal_board_needs_t *needs,
+                     char error[HAL_BOARD_ERROR_LENGTH])
 {
     char *end;
     const long port = strtol(table->can, &end, 10);
@@ -88,7 +90,8 @@ static bool open_bus(bench_t *b, const board_table_t *table, const hal_board_nee
     return true;
 }
 
-static bool open_camera(bench_t *b, const board_table_t *table, const hal_board_needs_t *needs, char error[BOARD_ERROR])
+static bool open_camera(bench_t *b, const board_table_t *table, const hal_board_needs_t *needs,
+                        char error[HAL_BOARD_ERROR_LENGTH])
 {
     b->video = video_open(table->camera, needs->picture_width, needs->picture_height, error);
     if (b->video == NULL)
@@ -109,7 +112,7 @@ static bool open_camera(bench_t *b, const board_table_t *table, const hal_board_
 }
 
 static bool open_display(bench_t *b, const board_table_t *table, const hal_board_needs_t *needs,
-                         char error[BOARD_ERROR])
+                         char error[HAL_BOARD_ERROR_LENGTH])
 {
     b->folder = strcmp(table->display, "none") == 0 ? NULL : table->display;
     if (b->folder != NULL && mkdir(b->folder, 0777) != 0 && errno != EEXIST)
@@ -131,7 +134,7 @@ static bool open_display(bench_t *b, const board_table_t *table, const hal_board
 }
 
 hal_status_t hal_board_open(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
-                            char error[BOARD_ERROR])
+                            char error[HAL_BOARD_ERROR_LENGTH])
 {
     const sim_clock_settings_t clock = {.real = true};
     bench_t *b = calloc(1, sizeof *b);

@@ -23,7 +23,8 @@ enum { FIR_MAX_K_Q16 = 64 << 16 };
  * @param      filter  Not WARP_FILTER_NONE.
  * @param      k_q16   Q16, above 1 and up to FIR_MAX_K_Q16.
  *
- * At most some million instructions, once per change of k.
+ * Once per change of k, which is every frame while the viewer walks: some 50 thousand instructions for gauss at k = 2,
+ * some millions for kaiser and butter.
  */
 void fir_design(fir_t *fir, warp_filter_t filter, int32_t k_q16);
 

@@ -6,7 +6,8 @@
 // Phases     Kernels see positions rounded to 1/128 px (1/64 would cost 0.02 dB, 0.1 where projector pixels are small).
 // Sums       Both passes of prefilter and window go from 8 bits to 8 bits through 16:
 //            first pass   v = sum(w1 * p), the weights' sum S1 is 128 (or 255 where no weight is negative);
-//                         v fits 16 bits, so vector code needs 8 x 8 bit multiplies only;
+//                         less its middle, 128 * S1, v fits signed 16 bits with all that a cubic overshoots (without
+//                         negative weights it fits unsigned ones as it is): 8 x 8 bit multiplies do for vector code;
 //            second pass  out = (sum(w2 * v) + 2^21) >> 22, the weights' sum S2 is chosen so that S1 * S2 = 2^22,
 //                         nearly: 32767 for 128 and 16448 for 255. A constant picture comes out unchanged:
 //                         |S1 * S2 - 2^22| <= 128 is at most 0.008 of a grey level.

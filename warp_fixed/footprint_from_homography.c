@@ -119,7 +119,9 @@ void footprint_band(footprint_band_t *out, const grid_t *grid, int32_t band)
     if (first_lit < 0)
         return;
 
-    const int32_t middle = (first_lit + last_lit) / 2; /* lit too: the lit pixels are a convex region */
+    int32_t middle = (first_lit + last_lit) / 2;
+    while (grid->row[middle].begin == grid->row[middle].end) /* possible next to a tip of the lit region */
+        middle++;
     out->begin = begin / FOOTPRINT_BLOCK;
     out->end = (end + FOOTPRINT_BLOCK - 1) / FOOTPRINT_BLOCK;
     for (int32_t b = out->begin; b < out->end; b++) {

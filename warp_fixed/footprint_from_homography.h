@@ -37,8 +37,8 @@ typedef struct {
 /**
  * Sides of every lit block of the band of rows [16 band, 16 band + 16).
  *
- * They are taken once per block, in the band's middle lit row, at the lit pixel nearest to the block's middle
- * (measured: costs less than 0.001 dB against sides of each pixel).
+ * They are taken once per block, in the band's middle lit row (the next one below, should that be empty), at the lit
+ * pixel nearest to the block's middle (measured: costs less than 0.001 dB against sides of each pixel).
  */
 void footprint_band(footprint_band_t *out, const grid_t *grid, int32_t band);
 

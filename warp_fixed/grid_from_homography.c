@@ -12,8 +12,6 @@
 // (33-bit reciprocal of w, x up to 2^13 px) 2^-18. The sum is below 0.0022 px; 1/256 is 0.0039.
 #include "warp_fixed/grid_from_homography.h"
 
-#include <stddef.h>
-
 #include "warp_fixed/fixed.h"
 
 enum { FORM_BITS = 60, MAX_SPAN_LOG2 = 6, MIN_X_PX = -2048, MAX_X_PX = 6144 };
@@ -256,9 +254,9 @@ bool grid_point(const grid_t *grid, int32_t i, int32_t j, int32_t *x_q18, int32_
     const int32_t aligned = (i >> row->span_log2) << row->span_log2;
     const int32_t begin = aligned > row->begin ? aligned : row->begin;
     const grid_quadratic_t q = grid_block(grid, j, begin, grid_block_end(grid, j, i));
-    const int32_t k = i - begin;
-    *x_q18 = q.x + k * q.dx + k * (k - 1) / 2 * q.ddx;
-    *y_q18 = q.y + k * q.dy + k * (k - 1) / 2 * q.ddy;
+    const uint32_t k = (uint32_t)(i - begin), pairs = k * (k - 1) / 2;
+    *x_q18 = (int32_t)((uint32_t)q.x + k * (uint32_t)q.dx + pairs * (uint32_t)q.ddx);
+    *y_q18 = (int32_t)((uint32_t)q.y + k * (uint32_t)q.dy + pairs * (uint32_t)q.ddy);
     return true;
 }
 

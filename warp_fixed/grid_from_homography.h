@@ -52,7 +52,8 @@ typedef struct {
  * A pixel is lit when its depth is positive and its square, widened by an eighth of a pixel on each side, can reach
  * the picture. O(rows).
  *
- * @param[out] grid  All of it is written but the rows beyond the panel.
+ * @param[out] grid        All of it is written but the rows beyond the panel.
+ * @param      homography  Its panel is at most IMAGE_MAX_WIDTH x IMAGE_MAX_HEIGHT.
  */
 void grid_from_homography(grid_t *grid, const homography_t *homography);
 

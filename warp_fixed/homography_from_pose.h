@@ -17,7 +17,7 @@ typedef struct {
 
 /** The viewer's virtual pinhole camera K_c. Micro-pixels: an exact decimal stays exact. */
 typedef struct {
-    int32_t width, height;    /**< picture, pixels, 1 to 4096 each */
+    int32_t width, height;    /**< picture, pixels, 1 to IMAGE_MAX_WIDTH x IMAGE_MAX_HEIGHT */
     int64_t focal_upx[2];     /**< 10^-6 px, > 0 */
     int64_t principal_upx[2]; /**< 10^-6 px */
 } camera_t;

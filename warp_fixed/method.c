@@ -2,6 +2,7 @@
 // Names of the methods: a prefilter and a way to resample.
 #include "warp_fixed/method.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 const warp_method_t warp_methods[WARP_METHODS] = {

@@ -3,8 +3,6 @@
 #ifndef WARP_FIXED_METHOD_H
 #define WARP_FIXED_METHOD_H
 
-#include <stdbool.h>
-
 typedef enum { WARP_FILTER_NONE, WARP_FILTER_GAUSS, WARP_FILTER_KAISER, WARP_FILTER_BUTTER } warp_filter_t;
 
 typedef enum {

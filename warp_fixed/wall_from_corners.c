@@ -2,6 +2,7 @@
 // Corner markers -> the wall: its plane, and where on it every projector pixel lands (paper, eq 1 and 2).
 #include "warp_fixed/wall_from_corners.h"
 
+#include "warp_fixed/image.h"
 #include "warp_fixed/plane_from_points.h"
 #include "warp_fixed/real_vector.h"
 
@@ -146,8 +147,9 @@ wall_status_t wall_from_corners(wall_t *wall, const wall_corners_t *measured)
     int known = 0;
     for (int c = 0; c < 4; c++)
         known += measured->corner_known[c];
-    if (measured->panel_width < 1 || measured->panel_width > 4096 || measured->panel_height < 1 ||
-        measured->panel_height > 4096 || measured->marker_count < 0 || measured->marker_count > WALL_MAX_MARKERS)
+    if (measured->panel_width < 1 || measured->panel_width > IMAGE_MAX_WIDTH || measured->panel_height < 1 ||
+        measured->panel_height > IMAGE_MAX_HEIGHT || measured->marker_count < 0 ||
+        measured->marker_count > WALL_MAX_MARKERS)
         return WALL_BAD_SIZE;
     if (known < 3)
         return WALL_TOO_FEW_CORNERS;

@@ -18,7 +18,7 @@ typedef struct {
 
 /** What was measured. Corners in the order top-left, top-right, bottom-right, bottom-left of the projected picture. */
 typedef struct {
-    int32_t panel_width, panel_height; /**< projector, pixels, 1 to 4096 each */
+    int32_t panel_width, panel_height; /**< projector, pixels, 1 to IMAGE_MAX_WIDTH x IMAGE_MAX_HEIGHT */
     int32_t corner_um[4][3];           /**< world, micrometres */
     bool corner_known[4];              /**< at least three */
     int32_t marker_count;              /**< 0 to WALL_MAX_MARKERS */

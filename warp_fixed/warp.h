@@ -53,8 +53,9 @@ void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t 
  * @param      picture     Source, of the panel's format.
  * @return false, and nothing written, when sizes or formats disagree or exceed IMAGE_MAX_WIDTH x IMAGE_MAX_HEIGHT.
  *
- * No allocation. Time is bounded by panel pixels x 16 texels, plus a small multiple of the picture's own pixels for
- * footprints larger than that.
+ * No allocation. Time is bounded: a lit pixel reads WINDOW_MAX_TAPS x WINDOW_MAX_TAPS texels at most. Together they
+ * read some 36 texels per lit pixel, or where footprints are larger than that a small multiple of the picture's own
+ * pixels: 1 to 4 times it, and A / 2 times that when footprints of aspect ratio A stand askew (A is 11 at 85 degrees).
  */
 bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *report, const homography_t *homography,
                 const image_t *panel, const image_t *picture);

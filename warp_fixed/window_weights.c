@@ -2,6 +2,7 @@
 // One table of weights for every interpolating and averaging kernel, by side of the footprint and phase.
 #include "warp_fixed/window_weights.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /*

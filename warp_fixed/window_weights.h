@@ -8,7 +8,6 @@
 #ifndef WARP_FIXED_WINDOW_WEIGHTS_H
 #define WARP_FIXED_WINDOW_WEIGHTS_H
 
-#include <stdbool.h>
 #include <stdint.h>
 
 #include "warp_fixed/fixed.h"

@@ -2,11 +2,14 @@
 // Step k in closed form against the exhaustive search, and the sides of blocks against the float Jacobian.
 #include "warp_fixed/footprint_from_homography.h"
 
-#include <math.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
+#include <stdint.h>
+
 #include <cmocka.h>
+
+#include <math.h>
 #include <stdio.h>
 
 #include "tests/support/oracle.h"

@@ -2,11 +2,14 @@
 // The fixed-point grid against the float oracle: expected rows of the tree, and random walls, poses and points.
 #include "warp_fixed/grid_from_homography.h"
 
-#include <math.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
+#include <stdint.h>
+
 #include <cmocka.h>
+
+#include <math.h>
 #include <stdio.h>
 
 #include "tests/support/oracle.h"

@@ -2,9 +2,11 @@
 // Halved levels of a picture: means of blocks, mirrored beyond the edge, made once per frame.
 #include "warp_fixed/levels.h"
 
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
+#include <stdint.h>
+
 #include <cmocka.h>
 
 #include "tests/support/rng.h"

@@ -2,11 +2,14 @@
 // The prefilters: their weights and their pictures against the float definitions, and the worst overshoot.
 #include "warp_fixed/prefilter.h"
 
-#include <math.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
+#include <stdint.h>
+
 #include <cmocka.h>
+
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

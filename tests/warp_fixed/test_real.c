@@ -2,11 +2,14 @@
 // Reals on integers against long double (64-bit mantissa) and against exact cases.
 #include "warp_fixed/real.h"
 
-#include <math.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
+#include <stdint.h>
+
 #include <cmocka.h>
+
+#include <math.h>
 #include <stdlib.h>
 
 #include "tests/support/rng.h"

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The window loop and its weights against the float definition of the kernels, on the worst pictures.
-#include <math.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
+#include <stdint.h>
+
 #include <cmocka.h>
+
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

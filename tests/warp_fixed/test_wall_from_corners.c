@@ -2,11 +2,14 @@
 // Walls from corner markers: the map against the float oracle, residuals, and every kind of bad corners.
 #include "warp_fixed/wall_from_corners.h"
 
-#include <math.h>
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
+#include <stdint.h>
+
 #include <cmocka.h>
+
+#include <math.h>
 #include <string.h>
 
 #include "tests/support/oracle.h"

@@ -2,10 +2,13 @@
 // Whole frames: every pixel written and no other, border and lit pixels, agreement with point-by-point warping.
 #include "warp_fixed/warp.h"
 
+#include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <setjmp.h>
+#include <stdint.h>
+
 #include <cmocka.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
