@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "tests/support/oracle.h"
+#include "warp_fixed/image.h"
 
 static long double value_of(real_t a)
 {
@@ -150,6 +151,9 @@ static void bad_corners_are_refused(void **state)
 
     m = plain_wall();
     m.panel_width = 0;
+    assert_int_equal(wall_from_corners(&wall, &m), WALL_BAD_SIZE);
+    m = plain_wall();
+    m.panel_height = IMAGE_MAX_HEIGHT + 1;
     assert_int_equal(wall_from_corners(&wall, &m), WALL_BAD_SIZE);
     m = plain_wall();
     m.marker_count = WALL_MAX_MARKERS + 1;
