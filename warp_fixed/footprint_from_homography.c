@@ -101,10 +101,32 @@ static uint32_t norm(int64_t a, int64_t b)
     return floor_sqrt((uint64_t)(a * a) + (uint64_t)(b * b));
 }
 
-void footprint_band(footprint_band_t *out, const grid_t *grid, int32_t band)
+static int32_t rows_from(const grid_t *grid, int32_t first_row, int32_t rows)
 {
-    const int32_t first_row = band * FOOTPRINT_BLOCK;
-    const int32_t rows = clamp_i32(grid->panel_height - first_row, 0, FOOTPRINT_BLOCK);
+    return clamp_i32(grid->panel_height - first_row, 0, rows);
+}
+
+int footprint_block_log2(const grid_t *grid, int32_t first_row)
+{
+    const int64_t by_u = grid->w.u < 0 ? -grid->w.u : grid->w.u, by_v = grid->w.v < 0 ? -grid->w.v : grid->w.v;
+    const int64_t change = 2 * (by_u > by_v ? by_u : by_v); /* of w per pixel: below 2^50 (w < 2^60 over 8192 px) */
+    const int32_t rows = rows_from(grid, first_row, FOOTPRINT_BAND);
+    int log2 = 4;
+    for (int32_t j = first_row; j < first_row + rows; j++) {
+        const grid_row_t *row = &grid->row[j];
+        if (row->begin == row->end)
+            continue;
+        const int64_t at_begin = grid_depth(grid, row->begin, j), at_end = grid_depth(grid, row->end - 1, j);
+        const int64_t least = at_begin < at_end ? at_begin : at_end;
+        while (log2 > 0 && change << (log2 + 4) > least)
+            log2--;
+    }
+    return log2;
+}
+
+void footprint_blocks(footprint_blocks_t *out, const grid_t *grid, int32_t first_row, int size_log2)
+{
+    const int32_t size = 1 << size_log2, rows = rows_from(grid, first_row, size);
     int32_t first_lit = -1, last_lit = -1, begin = IMAGE_MAX_WIDTH, end = 0;
     for (int32_t j = first_row; j < first_row + rows; j++) {
         const grid_row_t *row = &grid->row[j];
@@ -122,11 +144,11 @@ void footprint_band(footprint_band_t *out, const grid_t *grid, int32_t band)
     int32_t middle = (first_lit + last_lit) / 2;
     while (grid->row[middle].begin == grid->row[middle].end) /* possible next to a tip of the lit region */
         middle++;
-    out->begin = begin / FOOTPRINT_BLOCK;
-    out->end = (end + FOOTPRINT_BLOCK - 1) / FOOTPRINT_BLOCK;
+    const grid_row_t *row = &grid->row[middle];
+    out->begin = begin >> size_log2;
+    out->end = ((end - 1) >> size_log2) + 1;
     for (int32_t b = out->begin; b < out->end; b++) {
-        const grid_row_t *row = &grid->row[middle];
-        const int32_t i = clamp_i32(b * FOOTPRINT_BLOCK + FOOTPRINT_BLOCK / 2, row->begin, row->end - 1);
+        const int32_t i = clamp_i32((b << size_log2) + size / 2, row->begin, row->end - 1);
         const grid_jacobian_t jacobian = grid_jacobian(grid, i, middle);
         out->block[b] =
             (footprint_sides_t){norm(jacobian.x_by_u, jacobian.x_by_v), norm(jacobian.y_by_u, jacobian.y_by_v)};

@@ -260,6 +260,11 @@ bool grid_point(const grid_t *grid, int32_t i, int32_t j, int32_t *x_q18, int32_
     return true;
 }
 
+int64_t grid_depth(const grid_t *grid, int32_t i, int32_t j)
+{
+    return value_at(&grid->w, 2 * i + 1, 2 * j + 1);
+}
+
 grid_jacobian_t grid_jacobian(const grid_t *grid, int32_t i, int32_t j)
 {
     const int32_t u = 2 * i + 1, v = 2 * j + 1;

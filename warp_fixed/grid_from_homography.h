@@ -71,6 +71,9 @@ int32_t grid_block_end(const grid_t *grid, int32_t j, int32_t i);
 /** The point of one lit pixel, as every frame uses it. @return false, and nothing written, when it is not lit. */
 bool grid_point(const grid_t *grid, int32_t i, int32_t j, int32_t *x_q18, int32_t *y_q18);
 
+/** @return w at the centre of a pixel, on the scale of grid->w. */
+int64_t grid_depth(const grid_t *grid, int32_t i, int32_t j);
+
 /** @return The derivatives at the centre of a pixel of positive depth. */
 grid_jacobian_t grid_jacobian(const grid_t *grid, int32_t i, int32_t j);
 

@@ -83,6 +83,13 @@ void homography_from_indices(homography_t *homography, const int64_t rows_q40[3]
     homography->picture_height = picture[1];
 }
 
+bool homography_is_mirrored(const homography_t *homography)
+{
+    real_t cross[3]; /* the determinant is positive where the map keeps the sense of turn */
+    vector_cross(cross, homography->row[0], homography->row[1]);
+    return real_sign(vector_dot(cross, homography->row[2])) < 0;
+}
+
 int64_t homography_depth_um(const homography_t *homography, int32_t u_half, int32_t v_half)
 {
     const real_t uv[3] = {real_from_int(u_half, -1), real_from_int(v_half, -1), real_from_int(1, 0)};

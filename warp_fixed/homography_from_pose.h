@@ -46,6 +46,9 @@ bool homography_from_pose(homography_t *homography, const camera_t *camera, cons
 void homography_from_indices(homography_t *homography, const int64_t rows_q40[3][3], const int32_t panel[2],
                              const int32_t picture[2]);
 
+/** @return Does the viewer see the wall from behind, so that its picture is mirrored (rear projection)? */
+bool homography_is_mirrored(const homography_t *homography);
+
 /** @return Depth in front of the viewer of panel point (u, v), both in half pixels (2 i + 1 is a centre), um. */
 int64_t homography_depth_um(const homography_t *homography, int32_t u_half, int32_t v_half);
 

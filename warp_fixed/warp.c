@@ -11,8 +11,8 @@ typedef struct {
     warp_t *warp;
     const warp_kernels_t *kernels;
     const image_t *panel;
-    image_t picture;                                    /* after the prefilter */
-    window_t window[IMAGE_MAX_WIDTH / FOOTPRINT_BLOCK]; /* of the present band's blocks */
+    image_t picture; /* after the prefilter */
+    int block_log2;  /* of the present rows' blocks */
 } frame_t;
 
 void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t border[3])
@@ -36,25 +36,30 @@ static void fill_border(const warp_t *warp, const image_t *panel, int32_t j, int
             *out++ = warp->border[channel];
 }
 
-/* Weights and level of every lit block of a band. */
-static void choose_windows(frame_t *frame, int32_t band)
+/* Weights and level of every lit block of the block row that begins at row j. */
+static void choose_blocks(frame_t *frame, int32_t j)
 {
     warp_t *warp = frame->warp;
-    const warp_resampler_t resampler = warp->method.resampler;
-    footprint_band(&warp->band, &warp->grid, band);
-    for (int32_t b = warp->band.begin; b < warp->band.end; b++) {
-        const window_side_t x = window_side(resampler, warp->band.block[b].width_q16);
-        const window_side_t y = window_side(resampler, warp->band.block[b].height_q16);
-        frame->window[b] = (window_t){
-            .x = window_axis(&warp->weights, x.side),
-            .y = window_axis(&warp->weights, y.side),
-            .picture = levels_picture(&warp->levels, &frame->picture, x.level, y.level),
-            .width = frame->picture.width,
-            .height = frame->picture.height,
-            .level_x = x.level,
-            .level_y = y.level,
-        };
+    footprint_blocks(&warp->blocks, &warp->grid, j, frame->block_log2);
+    for (int32_t b = warp->blocks.begin; b < warp->blocks.end; b++) {
+        const footprint_sides_t sides = warp->blocks.block[b];
+        warp->block[b] = (warp_block_t){window_side(warp->method.resampler, sides.width_q16),
+                                        window_side(warp->method.resampler, sides.height_q16)};
     }
+}
+
+static window_t window_of(const frame_t *frame, const warp_block_t *block)
+{
+    warp_t *warp = frame->warp;
+    return (window_t){
+        .x = window_axis(&warp->weights, block->x.side),
+        .y = window_axis(&warp->weights, block->y.side),
+        .picture = levels_picture(&warp->levels, &frame->picture, block->x.level, block->y.level),
+        .width = frame->picture.width,
+        .height = frame->picture.height,
+        .level_x = block->x.level,
+        .level_y = block->y.level,
+    };
 }
 
 /* Resample pixels [begin, end) of row j, whose points are x and y; the pieces of each footprint block in turn. */
@@ -69,11 +74,12 @@ static void resample(const frame_t *frame, int32_t j, int32_t begin, int32_t end
         nearest(row + begin * channels, &frame->picture, x, y, end - begin);
         return;
     }
-    resample_window_fn *window = gray ? kernels->window_gray : kernels->window_xrgb;
+    resample_window_fn *weigh = gray ? kernels->window_gray : kernels->window_xrgb;
     for (int32_t i = begin; i < end;) {
-        const int32_t block = i / FOOTPRINT_BLOCK, block_end = (block + 1) * FOOTPRINT_BLOCK;
+        const int32_t block = i >> frame->block_log2, block_end = (block + 1) << frame->block_log2;
         const int32_t piece_end = block_end < end ? block_end : end;
-        window(row + i * channels, &frame->window[block], x + (i - begin), y + (i - begin), piece_end - i);
+        const window_t window = window_of(frame, &frame->warp->block[block]);
+        weigh(row + i * channels, &window, x + (i - begin), y + (i - begin), piece_end - i);
         i = piece_end;
     }
 }
@@ -116,8 +122,10 @@ bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *repo
 
     int32_t lit = 0;
     for (int32_t j = 0; j < panel->height; j++) {
-        if (j % FOOTPRINT_BLOCK == 0 && warp->method.resampler != WARP_NEAREST)
-            choose_windows(&frame, j / FOOTPRINT_BLOCK);
+        if (j % FOOTPRINT_BAND == 0)
+            frame.block_log2 = footprint_block_log2(&warp->grid, j);
+        if (j % (1 << frame.block_log2) == 0 && warp->method.resampler != WARP_NEAREST)
+            choose_blocks(&frame, j);
         make_row(&frame, j);
         lit += warp->grid.row[j].end - warp->grid.row[j].begin;
     }

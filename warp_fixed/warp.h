@@ -16,6 +16,11 @@
 #include "warp_fixed/prefilter.h"
 #include "warp_fixed/window_weights.h"
 
+/** Which weights and which level of the picture serve a block, along both axes. */
+typedef struct {
+    window_side_t x, y;
+} warp_block_t;
+
 /** Everything a board needs between and within frames; about 48 MB, most of it never touched by small pictures. */
 typedef struct {
     warp_method_t method;
@@ -23,7 +28,8 @@ typedef struct {
     uint8_t border[4]; /**< B, G, R, X of unlit pixels; border[0] alone for gray */
     window_weights_t weights;
     grid_t grid;
-    footprint_band_t band;
+    footprint_blocks_t blocks;
+    warp_block_t block[IMAGE_MAX_WIDTH];
     prefilter_t prefilter;
     levels_t levels;
 } warp_t;

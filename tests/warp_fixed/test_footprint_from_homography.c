@@ -97,46 +97,79 @@ static void a_wall_out_of_view_has_no_step(void **state)
     assert_int_equal(step.all_q16, FOOTPRINT_MAX_STEP_Q16);
 }
 
+static void check_block(uint64_t seed, const oracle_scene_t *scene, const footprint_sides_t *found, const int32_t ij[2])
+{
+    const long double u = ij[0] + 0.5L, v = ij[1] + 0.5L, *w_row = scene->exact.row[2];
+    const long double w = w_row[0] * u + w_row[1] * v + w_row[2];
+    long double at[2], depth, sides[2];
+    oracle_point(&scene->exact, u, v, at, &depth);
+    for (int a = 0; a < 2; a++) {
+        const long double *row = scene->exact.row[a];
+        sides[a] = hypotl(row[0] - at[a] * w_row[0], row[1] - at[a] * w_row[1]) / w;
+    }
+    const double width = found->width_q16 / 65536.0, height = found->height_q16 / 65536.0;
+    if (fabs(width - (double)sides[0]) > (double)sides[0] * 1e-6 + 1e-4 ||
+        fabs(height - (double)sides[1]) > (double)sides[1] * 1e-6 + 1e-4)
+        fail_msg("seed %lu, pixel (%d, %d): %f x %f, expected %Lf x %Lf", (unsigned long)seed, ij[0], ij[1], width,
+                 height, sides[0], sides[1]);
+}
+
+/* Whole blocks only: at the rim the point moves to the nearest lit pixel. */
 static void block_sides_are_the_jacobian_s_rows(void **state)
 {
     (void)state;
     static grid_t grid;
-    static footprint_band_t band;
-    long blocks = 0;
+    static footprint_blocks_t blocks;
+    long checked = 0;
     for (uint64_t seed = 1; seed <= 300; seed++) {
         rng_t rng = {seed};
         oracle_scene_t scene;
         oracle_random_case(&scene.c, &rng);
         assert_true(oracle_scene(&scene));
         grid_from_homography(&grid, &scene.homography);
-        const int32_t bands = (grid.panel_height + FOOTPRINT_BLOCK - 1) / FOOTPRINT_BLOCK;
-        for (int32_t b = 0; b < bands; b += 7) {
-            footprint_band(&band, &grid, b);
-            const int32_t j = b * FOOTPRINT_BLOCK + FOOTPRINT_BLOCK / 2;
-            for (int32_t k = band.begin; k < band.end; k++) {
-                const int32_t i = k * FOOTPRINT_BLOCK + FOOTPRINT_BLOCK / 2;
+        for (int32_t j = 0; j + FOOTPRINT_BAND <= grid.panel_height; j += 7 * FOOTPRINT_BAND) {
+            const int log2 = footprint_block_log2(&grid, j), half = (1 << log2) / 2;
+            footprint_blocks(&blocks, &grid, j, log2);
+            for (int32_t b = blocks.begin; b < blocks.end; b++) {
+                const int32_t ij[2] = {(b << log2) + half, j + (half > 0 ? half - 1 : 0)};
                 int32_t x, y;
-                long double at[2], depth, sides[2];
-                /* Only whole blocks: at the rim the point moves to the nearest lit pixel. */
-                if (j + 8 >= grid.panel_height || !grid_point(&grid, i, j - 8, &x, &y) ||
-                    !grid_point(&grid, i, j + 7, &x, &y))
+                if (!grid_point(&grid, ij[0], j, &x, &y) || !grid_point(&grid, ij[0], j + (1 << log2) - 1, &x, &y))
                     continue;
-                oracle_point(&scene.exact, i + 0.5L, j - 0.5L, at, &depth);
-                const long double *w_row = scene.exact.row[2];
-                const long double w = w_row[0] * (i + 0.5L) + w_row[1] * (j - 0.5L) + w_row[2];
-                for (int a = 0; a < 2; a++)
-                    sides[a] =
-                        hypotl(scene.exact.row[a][0] - at[a] * w_row[0], scene.exact.row[a][1] - at[a] * w_row[1]) / w;
-                const double width = band.block[k].width_q16 / 65536.0, height = band.block[k].height_q16 / 65536.0;
-                if (fabs(width - (double)sides[0]) > (double)sides[0] * 1e-3 + 1e-4 ||
-                    fabs(height - (double)sides[1]) > (double)sides[1] * 1e-3 + 1e-4)
-                    fail_msg("seed %lu, block (%d, %d): %f x %f, expected %Lf x %Lf", (unsigned long)seed, k, b, width,
-                             height, sides[0], sides[1]);
-                blocks++;
+                check_block(seed, &scene, &blocks.block[b], ij);
+                checked++;
             }
         }
     }
-    assert_true(blocks > 10000);
+    assert_true(checked > 10000);
+}
+
+/* Over a block depth changes by 1/16 at most, and twice as large a block would break that, or 16 px. */
+static void blocks_follow_the_perspective(void **state)
+{
+    (void)state;
+    static grid_t grid;
+    long of_size[5] = {0};
+    for (uint64_t seed = 1; seed <= 2000; seed++) {
+        rng_t rng = {seed};
+        oracle_scene_t scene;
+        oracle_random_case(&scene.c, &rng);
+        assert_true(oracle_scene(&scene));
+        grid_from_homography(&grid, &scene.homography);
+        const int32_t j = (int32_t)rng_int(&rng, 0, grid.panel_height / FOOTPRINT_BAND - 1) * FOOTPRINT_BAND;
+        const long double *w_row = scene.exact.row[2];
+        long double fastest = 0;
+        for (int32_t row = j; row < j + FOOTPRINT_BAND; row++)
+            for (int32_t i = grid.row[row].begin; i < grid.row[row].end; i++)
+                fastest = fmaxl(fastest, fmaxl(fabsl(w_row[0]), fabsl(w_row[1])) /
+                                             (w_row[0] * (i + 0.5L) + w_row[1] * (row + 0.5L) + w_row[2]));
+        const int log2 = footprint_block_log2(&grid, j), size = 1 << log2;
+        of_size[log2]++;
+        if ((log2 > 0 && size * fastest > 1.0001L / 16) || (log2 < 4 && 2 * size * fastest < 0.9999L / 16))
+            fail_msg("seed %lu, row %d: blocks of %d px, depth changes by %.6Lf a pixel", (unsigned long)seed, j, size,
+                     fastest);
+    }
+    printf("blocks of 1, 2, 4, 8, 16 px: %ld %ld %ld %ld %ld times\n", of_size[0], of_size[1], of_size[2], of_size[3],
+           of_size[4]);
 }
 
 int main(void)
@@ -145,6 +178,7 @@ int main(void)
         cmocka_unit_test(closed_form_is_just_above_the_exhaustive_step),
         cmocka_unit_test(a_wall_out_of_view_has_no_step),
         cmocka_unit_test(block_sides_are_the_jacobian_s_rows),
+        cmocka_unit_test(blocks_follow_the_perspective),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

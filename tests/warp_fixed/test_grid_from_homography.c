@@ -147,6 +147,31 @@ static void frontal_wall_maps_pixel_centres_exactly(void **state)
     assert_int_equal(homography_depth_um(&scene.homography, 1, 1), 2500000);
 }
 
+/* From the other side of the wall its picture is mirrored, whatever the roll, and only from there. */
+static void a_wall_seen_from_behind_is_mirrored(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 300; seed++) {
+        rng_t rng = {seed};
+        oracle_scene_t scene;
+        oracle_random_case(&scene.c, &rng);
+        assert_true(oracle_scene(&scene));
+        const bool mirrored = homography_is_mirrored(&scene.homography);
+        for (int k = 0; k < 3; k++) /* the eye to the other side of the plane */
+            scene.c.pose.eye_nm[k] = llroundl((2 * scene.wall.through[k] - scene.c.pose.eye_nm[k] * 1e-9L) * 1e9L);
+        assert_true(oracle_scene(&scene));
+        assert_int_equal(homography_is_mirrored(&scene.homography), !mirrored);
+    }
+    oracle_scene_t frontal = {.c = {.corners = {.panel_width = 16,
+                                                .panel_height = 9,
+                                                .corner_um = {{-16000, -9000, 0}, {16000, -9000, 0}, {16000, 9000, 0}},
+                                                .corner_known = {true, true, true, false}},
+                                    .camera = {16, 9, {16000000, 16000000}, {8000000, 4500000}},
+                                    .pose = {{0, 0, -1000000000}, {1 << 30, 0, 0, 0}}}};
+    assert_true(oracle_scene(&frontal));
+    assert_false(homography_is_mirrored(&frontal.homography));
+}
+
 /*
  * How far outside the picture a pixel's point is, in units of what its square reaches to either side. Negative depth,
  * and the few pixels next to the plane of depth 0, where derivatives say nothing about the square, are told apart.
@@ -202,6 +227,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frontal_wall_maps_pixel_centres_exactly),
+        cmocka_unit_test(a_wall_seen_from_behind_is_mirrored),
         cmocka_unit_test(a_point_is_its_blocks_point),
         cmocka_unit_test(lit_pixels_are_those_that_reach_the_picture),
         cmocka_unit_test(random_cases_agree),
