@@ -123,6 +123,22 @@ sanitize: setup-test ## Run the unit tests again with the address and undefined-
 run-unit-tests: $(TESTS)
 	$(Q)tests/run.sh $(BUILD)/test-logs $(foreach t,$(TESTS),'$(t)')
 
+# --- fuzzing ---------------------------------------------------------------------------------------------------------
+
+FUZZ_C  := $(wildcard tests/fuzz/fuzz_*.c)
+FUZZERS := $(FUZZ_C:%.c=$(BUILD)/%)
+SECONDS := 20
+$(BUILD)/tests/fuzz/%: $(BUILD)/obj/tests/fuzz/%.c.o $(call objects,$(filter-out $(FUZZ_C),$(wildcard tests/fuzz/*.c))) \
+    $(LIBS)
+	$(call link)
+
+.PHONY: fuzz run-fuzz
+fuzz: setup-test ## Search for inputs that break the readers and the warp, SECONDS=20 for each of eight targets
+	$(Q)$(MAKE) --no-print-directory BUILD=build/fuzz CC=clang OPT='-O2 -fsanitize=fuzzer,address,undefined \
+	    -fno-sanitize-recover=all -fno-omit-frame-pointer' run-fuzz
+run-fuzz: $(FUZZERS)
+	$(Q)tests/fuzz/run.sh $(BUILD) $(SECONDS)
+
 .PHONY: freestanding
 freestanding: setup-test ## Compile warp_fixed for aarch64 without any library, and look for float and foreign symbols
 	$(Q)tests/warp_fixed/test_freestanding.sh $(BUILD)

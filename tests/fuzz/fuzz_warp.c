@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fuzzes the way from corners and pose to pixels with any numbers: no byte outside the panel, and no strange colours.
+//
+// An empty input is a viewer 2 m before a wall of 2 m that fills the picture; every number in the input is added to
+// that.
+#include "warp_fixed/warp.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "tests/fuzz/input.h"
+
+enum { LARGEST = 64, PLAIN_SIZE = 20, GUARD_BYTE = 0xa5, LOWEST = 100, BORDER = 17 };
+
+/* One for each method, made once: their tables take milliseconds. */
+static warp_t warps[WARP_METHODS];
+
+int LLVMFuzzerInitialize(int *argc, char ***argv)
+{
+    static const uint8_t border[3] = {BORDER, BORDER, BORDER};
+    (void)argc;
+    (void)argv;
+    for (int m = 0; m < WARP_METHODS; m++)
+        warp_init(&warps[m], warp_methods[m], false, border);
+    return 0;
+}
+
+/* 1 to LARGEST; small ones are tried first, as they are quick. */
+static int32_t size_from_input(input_t *input)
+{
+    return 1 + (PLAIN_SIZE - 1 + input_byte(input)) % LARGEST;
+}
+
+static int32_t moved(input_t *input, int64_t from, int bits)
+{
+    const int64_t limit = INT64_C(1) << 30;
+    const int64_t at = from + input_number(input, bits);
+    return (int32_t)(at > limit ? limit : at < -limit ? -limit : at);
+}
+
+static wall_corners_t measured_from_input(input_t *input)
+{
+    static const int32_t plain[4][3] = {
+        {-1000000, -1000000}, {1000000, -1000000}, {1000000, 1000000}, {-1000000, 1000000}};
+    wall_corners_t measured = {.panel_width = size_from_input(input), .panel_height = size_from_input(input)};
+    const uint8_t unknown = input_byte(input), markers = input_byte(input);
+    for (int c = 0; c < 4; c++) {
+        measured.corner_known[c] = !(unknown & 1 << c);
+        for (int a = 0; a < 3; a++)
+            measured.corner_um[c][a] = moved(input, plain[c][a], 31);
+    }
+    measured.marker_count = markers % 4;
+    for (int m = 0; m < measured.marker_count; m++) {
+        measured.marker[m].px_q16[0] = input_range(input, 0, measured.panel_width) * (1 << 16);
+        measured.marker[m].px_q16[1] = input_range(input, 0, measured.panel_height) * (1 << 16);
+        for (int a = 0; a < 3; a++)
+            measured.marker[m].um[a] = moved(input, 0, 31);
+    }
+    return measured;
+}
+
+static camera_t camera_from_input(input_t *input)
+{
+    camera_t camera = {.width = size_from_input(input), .height = size_from_input(input)};
+    for (int a = 0; a < 2; a++) {
+        camera.focal_upx[a] = INT64_C(1000000) * PLAIN_SIZE + input_number(input, 36);
+        if (camera.focal_upx[a] < 1)
+            camera.focal_upx[a] = 1;
+        camera.principal_upx[a] = INT64_C(500000) * PLAIN_SIZE + input_number(input, 36);
+    }
+    return camera;
+}
+
+/* By a wall, as the firmware does it. @return false when the wall or the pose is refused. */
+static bool homography_by_wall(homography_t *homography, input_t *input)
+{
+    wall_t wall, untouched;
+    memset(&wall, GUARD_BYTE, sizeof wall);
+    memset(&untouched, GUARD_BYTE, sizeof untouched);
+    const wall_corners_t measured = measured_from_input(input);
+    if (wall_from_corners(&wall, &measured) != WALL_OK) {
+        fuzz_check(memcmp(&wall, &untouched, sizeof wall) == 0, "a refused wall is untouched");
+        return false;
+    }
+    fuzz_check(wall.rms_um >= 0 && wall.worst_um >= wall.rms_um && wall.marker_um >= 0, "residuals are in order");
+    fuzz_check(wall.skew_mdeg >= 0 && wall.skew_mdeg <= 90000, "a skew is 0 to 90 degrees");
+    const camera_t camera = camera_from_input(input);
+    pose_t pose = {.eye_nm = {0, 0, -INT64_C(2000000000)}, .quaternion_q30 = {1 << 30}};
+    for (int i = 0; i < 3; i++)
+        pose.eye_nm[i] += input_number(input, 49);
+    for (int i = 0; i < 4; i++)
+        pose.quaternion_q30[i] = (int32_t)((uint32_t)pose.quaternion_q30[i] + (uint32_t)input_number(input, 32));
+    return homography_from_pose(homography, &camera, &wall, &pose);
+}
+
+/* By its nine numbers: also those that no wall gives. */
+static void homography_by_numbers(homography_t *homography, input_t *input)
+{
+    int32_t panel[2], picture[2];
+    int64_t rows_q40[3][3] = {{INT64_C(1) << 40, 0, 0}, {0, INT64_C(1) << 40, 0}, {0, 0, INT64_C(1) << 40}};
+    for (int i = 0; i < 2; i++) {
+        panel[i] = size_from_input(input);
+        picture[i] = size_from_input(input);
+    }
+    for (int i = 0; i < 9; i++)
+        rows_q40[i / 3][i % 3] += input_number(input, 62);
+    homography_from_indices(homography, (const int64_t(*)[3])rows_q40, panel, picture);
+}
+
+/* A picture with guard bytes behind each row, in memory of exactly its size. */
+static image_t new_image(int32_t width, int32_t height, image_format_t format, int32_t guard)
+{
+    const int32_t stride = width * (int32_t)format + guard;
+    const size_t size = (size_t)stride * (size_t)height;
+    image_t image = {malloc(size), width, height, stride, format};
+    fuzz_check(image.data != NULL, "memory for a small picture");
+    memset(image.data, GUARD_BYTE, size);
+    return image;
+}
+
+static void fill(const image_t *picture, uint8_t range, uint32_t seed)
+{
+    for (int32_t y = 0; y < picture->height; y++) {
+        for (int32_t i = 0; i < picture->width * (int32_t)picture->format; i++) {
+            seed = seed * 1664525 + 1013904223;
+            image_row(picture, y)[i] = (uint8_t)(LOWEST + (seed >> 24) * range / 255);
+        }
+    }
+}
+
+/*
+ * How far beyond the picture's colours a method may reach. Half of what the weights' absolute sum exceeds 1 by, which
+ * is 1.25^2 for Keys' cubic along two axes; below 7 for filters that ring.
+ */
+static int32_t overshoot(const warp_method_t *method, int32_t range)
+{
+    const bool calm_filter = method->filter == WARP_FILTER_NONE || method->filter == WARP_FILTER_GAUSS;
+    if (range == 0)
+        return 0;
+    if (!calm_filter)
+        return 3 * range + 2;
+    switch (method->resampler) {
+    case WARP_NEAREST:
+    case WARP_LINEAR:
+    case WARP_AREA:
+        return 1;
+    case WARP_CUBIC:
+    case WARP_MEAN_CUBIC:
+        return range * 9 / 32 + 2;
+    default:
+        return 3 * range + 2;
+    }
+}
+
+static void check_guards(const image_t *image)
+{
+    for (int32_t y = 0; y < image->height; y++)
+        for (int32_t i = image->width * (int32_t)image->format; i < image->stride; i++)
+            fuzz_check(image_row(image, y)[i] == GUARD_BYTE, "nothing is written between the rows");
+}
+
+static int32_t check_pixels(const warp_t *warp, const image_t *panel, int32_t range)
+{
+    int32_t lit = 0;
+    const int32_t channels = (int32_t)panel->format, slack = overshoot(&warp->method, range);
+    for (int32_t j = 0; j < panel->height; j++) {
+        const grid_row_t *row = &warp->grid.row[j];
+        fuzz_check(row->begin >= 0 && row->begin <= row->end && row->end <= panel->width,
+                   "lit pixels are in the panel");
+        for (int32_t i = 0; i < panel->width; i++) {
+            const bool is_lit = i >= row->begin && i < row->end;
+            lit += is_lit;
+            for (int32_t c = 0; c < channels; c++) {
+                const int32_t value = image_row(panel, j)[i * channels + c];
+                if (is_lit)
+                    fuzz_check(value >= LOWEST - slack && value <= LOWEST + range + slack, "a lit pixel shows picture");
+                else
+                    fuzz_check(value == (c < 3 ? BORDER : 0), "every other pixel shows the border");
+            }
+        }
+    }
+    return lit;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    input_t input = {data, size};
+    homography_t homography;
+    const uint8_t kind = input_byte(&input), range = input_byte(&input);
+    warp_t *warp = &warps[input_byte(&input) % WARP_METHODS];
+    const image_format_t format = kind & 1 ? IMAGE_GRAY8 : IMAGE_XRGB8888;
+    const int32_t guard = kind >> 4, top = range % 120;
+    warp->step_all = (kind & 2) != 0;
+    prefilter_init(&warp->prefilter);
+    if (kind & 4)
+        homography_by_numbers(&homography, &input);
+    else if (!homography_by_wall(&homography, &input))
+        return 0;
+
+    warp_report_t report;
+    const image_t panel = new_image(homography.panel_width, homography.panel_height, format, guard);
+    const image_t picture = new_image(homography.picture_width, homography.picture_height, format, guard);
+    fill(&picture, (uint8_t)top, kind);
+    fuzz_check(warp_frame(warp, &warp_kernels_scalar, &report, &homography, &panel, &picture), "the frame is made");
+    check_guards(&panel);
+    check_guards(&picture);
+    fuzz_check(check_pixels(warp, &panel, top) == report.lit_pixels, "lit pixels are counted");
+    fuzz_check(report.k_in_q16 >= 0 && report.k_in_q16 <= FOOTPRINT_MAX_STEP_Q16, "k is in range");
+    fuzz_check(report.k_all_q16 >= 0 && report.k_all_q16 <= FOOTPRINT_MAX_STEP_Q16, "k is in range over the wall");
+    free(panel.data);
+    free(picture.data);
+    return 0;
+}

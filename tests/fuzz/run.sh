@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Run the fuzzers one after the other and say what they found; what they learn is kept for the next run.
+#
+# usage: tests/fuzz/run.sh BUILD SECONDS [TARGET...]     from the tree's root; each target runs that long
+#
+# BUILD/corpus/TARGET has the inputs that are worth keeping, BUILD/crashes those that broke something. To see one again:
+# BUILD/tests/fuzz/TARGET BUILD/crashes/FILE
+set -u
+build=$1 seconds=$2
+shift 2
+if [ $# = 0 ]; then
+    set -- tests/fuzz/fuzz_*.c
+    set -- "${@#tests/fuzz/}"
+    set -- "${@%.c}"
+fi
+
+# The tree's own files to begin with; few formats have none here.
+seed() {
+    case $1 in
+    fuzz_room)
+        cp sim/demo/room.yaml tests/oracle/*.yaml tests/firmware/room/bad_rooms/*.yaml "$2"
+        options='method: area\n    border: [1, 2, 3]\n    step: all\n    markers: [{px: [5, 6], mm: [0, 0, 0]}]'
+        sed "s/^    node: 1$/&\n    $options\n    ls_weights: {x: [1], y: [1, 2]}/; s/\[-2400, 0, 2400\]/null/" \
+            sim/demo/room.yaml >"$2/options.yaml"
+        ;;
+    fuzz_png)
+        for picture in tests/images/*.png; do
+            head -c 3000 "$picture" >"$2/$(basename "$picture")"
+        done
+        ;;
+    fuzz_y4m)
+        for space in mono 420jpeg 422 444; do
+            printf 'YUV4MPEG2 W2 H2 F25:1 Ip A1:1 C%s XCOLORRANGE=FULL\nFRAME\nabcdefghijkl' "$space" >"$2/$space.y4m"
+        done
+        printf 'YUV4MPEG2 W3 H1\nFRAME\nabcdefgFRAME Ip\nabcdefg' >"$2/two_frames.y4m"
+        ;;
+    fuzz_socketcand)
+        printf '\364< open can0 >\364< rawmode >\375\100\364< send 123 8 1 2 3 4 5 6 7 8 >\364\375\100\374' >"$2/send"
+        printf '< echo >< send 1FFFFFFF 0 >\364\365\1\2\0\0\2\11\12< open can1 >\377\100\376' >"$2/wrong"
+        ;;
+    fuzz_pose_text)
+        head -n 20 sim/demo/walk.csv >"$2/walk.csv"
+        printf -- '-1.5e3 0 -2000.000001 0.99 0.1 -.05 +0' >"$2/pose"
+        ;;
+    fuzz_warp)
+        # Every method, through lenses of 20, 70 and 4300 pixels: footprints grow with them.
+        for method in $(seq 0 31); do
+            for lens in '\0' '\33\0\0\0\3' '\44\0\0\0\0\1'; do
+                # shellcheck disable=SC2059 # the octal bytes are for printf to read
+                {
+                    printf "\\0\\167\\$(printf %o "$method")"
+                    head -c 18 /dev/zero
+                    printf "$lens\\0$lens"
+                } >"$2/$method-${#lens}"
+            done
+        done
+        ;;
+    *) printf '\0' >"$2/zero" ;;
+    esac
+}
+
+passed=0 failed=0
+mkdir -p "$build/crashes" "$build/fuzz-logs"
+for target in "$@"; do
+    corpus=$build/corpus/$target seeds=$build/seeds/$target log=$build/fuzz-logs/$target.log
+    mkdir -p "$corpus" "$seeds"
+    seed "$target" "$seeds"
+    printf '%-20s %4s s ... ' "$target" "$seconds"
+    "$build/tests/fuzz/$target" -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=2500 -len_control=0 \
+        -print_final_stats=1 -artifact_prefix="$build/crashes/$target-" "$corpus" "$seeds" >"$log" 2>&1
+    status=$?
+    runs=$(sed -n 's/^stat::number_of_executed_units: //p' "$log")
+    reached=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$log" | tail -n 1)
+    if [ "$status" = 0 ] && [ "${runs:-0}" -gt 0 ]; then
+        passed=$((passed + 1))
+        echo "$runs runs, $reached places reached"
+    else
+        failed=$((failed + 1))
+        echo "FAILED, exit status $status"
+        grep -E '^BROKEN|ERROR: |runtime error: |^SUMMARY|Test unit written' "$log" || tail -n 20 "$log"
+        echo "--- $log"
+    fi
+done
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ] && [ "$passed" != 0 ]
