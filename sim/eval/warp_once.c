@@ -29,8 +29,20 @@ static void say_boards(char error[ROOM_MESSAGE_LENGTH], const room_t *room, cons
     say(error, "--board %.40s: %.200s has no such board, expected one of %.220s", place->board, place->room, names);
 }
 
+static void warn_if_mirrored(const warp_once_t *once, room_warning_fn *warn)
+{
+    char line[ROOM_MESSAGE_LENGTH];
+    if (warn == NULL || !homography_is_mirrored(&once->homography))
+        return;
+    say(line,
+        "--pose: sees the wall of board %s from behind, its picture is mirrored (rear projection, or corners in the "
+        "wrong order)",
+        once->board.name);
+    warn(NULL, line);
+}
+
 static warp_once_status_t open_in_room(warp_once_t *once, const warp_once_place_t *place, const room_t *room,
-                                       char error[ROOM_MESSAGE_LENGTH])
+                                       room_warning_fn *warn, char error[ROOM_MESSAGE_LENGTH])
 {
     const room_board_t *board = room_board_named(room, place->board);
     if (board == NULL) {
@@ -53,6 +65,7 @@ static warp_once_status_t open_in_room(warp_once_t *once, const warp_once_place_
         say(error, "out of memory");
         return WARP_ONCE_FAILED;
     }
+    warn_if_mirrored(&made, warn);
     *once = made;
     return WARP_ONCE_OK;
 }
@@ -67,7 +80,7 @@ warp_once_status_t warp_once_open(warp_once_t *once, const warp_once_place_t *pl
     }
     warp_once_status_t status = WARP_ONCE_FAILED;
     if (room_load(room, place->room, warn, NULL, error))
-        status = open_in_room(once, place, room, error);
+        status = open_in_room(once, place, room, warn, error);
     free(room);
     return status;
 }

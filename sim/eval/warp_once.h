@@ -34,7 +34,7 @@ typedef struct {
  *
  * @param[out] once   Written only when WARP_ONCE_OK is returned; to be given to warp_once_close().
  * @param      place  The three texts; none may be NULL.
- * @param      warn   Hears the room file's warnings, with context NULL; may be NULL.
+ * @param      warn   Hears the room file's warnings, and of a wall seen from behind, with context NULL; may be NULL.
  * @param[out] error  On failure: one line, which input, what was found, what was expected.
  */
 warp_once_status_t warp_once_open(warp_once_t *once, const warp_once_place_t *place, room_warning_fn *warn,
