@@ -21,3 +21,11 @@ void program_method_names(char names[PROGRAM_NAMES_LENGTH])
         snprintf(names + used, PROGRAM_NAMES_LENGTH - used, "%s%s", m == 0 ? "" : ", ", warp_methods[m].name);
     }
 }
+
+int program_finish(const char *command)
+{
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return PROGRAM_DONE;
+    fprintf(stderr, "%s: stdout: cannot write the results\n", command);
+    return PROGRAM_FAILED;
+}

@@ -15,4 +15,12 @@ void program_warn(void *context, const char *line);
  */
 void program_method_names(char names[PROGRAM_NAMES_LENGTH]);
 
+/**
+ * Push out what stdout still holds.
+ *
+ * @param command  As it begins error messages: "wallwarp-sim run".
+ * @return The exit status: 0, or 1 when stdout did not take everything (then said on stderr).
+ */
+int program_finish(const char *command);
+
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program wallwarp-pose: sends poses onto a CAN bus.
 #include <argp.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -16,6 +17,23 @@ typedef struct {
     const char *bus, *csv;
     bool fd;
 } send_options_t;
+
+static volatile sig_atomic_t stop_requested;
+
+static void request_stop(int signal_number)
+{
+    (void)signal_number;
+    stop_requested = 1;
+}
+
+static void check_bus(struct argp_state *state, const send_options_t *options)
+{
+    char error[POSE_LINK_MESSAGE_LENGTH];
+    if (options->fd && strchr(options->bus, ':') != NULL)
+        argp_error(state, "--fd: a simulator's port carries classic frames only");
+    if (!pose_link_check(options->bus, error))
+        argp_error(state, "--bus: %s", error);
+}
 
 static error_t parse_send(int key, char *argument, struct argp_state *state)
 {
@@ -37,8 +55,7 @@ static error_t parse_send(int key, char *argument, struct argp_state *state)
             argp_error(state, "--bus is missing");
         if (options->csv == NULL)
             argp_error(state, "the pose list is missing");
-        if (options->fd && strchr(options->bus, ':') != NULL)
-            argp_error(state, "--fd: a simulator's port carries classic frames only");
+        check_bus(state, options);
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -62,14 +79,24 @@ static int send_list(const send_options_t *options, const pose_list_t *list)
         fprintf(stderr, "wallwarp-pose: %s\n", error);
         return PROGRAM_FAILED;
     }
-    const bool sent = pose_send_list(&link, list, options->fd, isatty(STDERR_FILENO) && is_long(list), error);
+    /* only now: before the link is open, a signal may end the program at once */
+    signal(SIGINT, request_stop);
+    signal(SIGTERM, request_stop);
+    const bool show_progress = isatty(STDERR_FILENO) && is_long(list);
+    const pose_send_t send = {list, options->fd, show_progress, &stop_requested};
+    size_t sent = 0;
+    const bool ok = pose_send_list(&link, &send, &sent, error);
     pose_link_close(&link);
-    if (!sent) {
+    if (!ok) {
         fprintf(stderr, "wallwarp-pose: %s\n", error);
         return PROGRAM_FAILED;
     }
-    printf("%zu poses sent to %s\n", list->count, options->bus);
-    return PROGRAM_DONE;
+    if (sent < list->count) {
+        fprintf(stderr, "wallwarp-pose: interrupted after %zu of %zu poses\n", sent, list->count);
+        return PROGRAM_FAILED;
+    }
+    printf("%zu poses sent to %s\n", sent, options->bus);
+    return program_finish("wallwarp-pose");
 }
 
 static int run_send(int argc, char **argv)
@@ -87,8 +114,8 @@ static int run_send(int argc, char **argv)
         .args_doc = "CSV",
         .doc = "Send a pose list once, in real time.\v"
                "CSV is a pose list with the header time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz. The messages are those of "
-               "firmware/wallwarp.dbc, viewer 0. The exit status is 0 when all is sent, 1 when something failed, 2 for "
-               "bad usage.",
+               "firmware/wallwarp.dbc, viewer 0. The exit status is 0 when all is sent, 1 when it failed or was "
+               "interrupted, 2 for bad usage.",
     };
     send_options_t options = {.bus = NULL};
     argp_parse(&argp, argc, argv, 0, NULL, &options);

@@ -255,7 +255,7 @@ int main(int argc, char **argv)
     }
     if (strcmp(command, "--help") == 0 || strcmp(command, "-?") == 0) {
         fputs(usage, stdout);
-        return PROGRAM_DONE;
+        return program_finish("wallwarp-sim");
     }
     if (argc > 1)
         fprintf(stderr, "wallwarp-sim: found \"%s\", expected run or warp\n", command);

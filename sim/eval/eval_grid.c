@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "sim/eval/eval_options.h"
+#include "sim/program.h"
 #include "warp_fixed/fixed.h"
 #include "warp_fixed/grid_from_homography.h"
 
@@ -92,7 +93,7 @@ static int print_points(const options_t *options, const char *command)
             print_point(&once.homography, &once.warp->grid, (int32_t)options->at[n].i, (int32_t)options->at[n].j);
     }
     warp_once_close(&once);
-    return on_panel ? eval_finish(command) : WARP_ONCE_BAD_USAGE;
+    return on_panel ? program_finish(command) : WARP_ONCE_BAD_USAGE;
 }
 
 int eval_grid(int argc, char **argv)

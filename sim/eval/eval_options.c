@@ -64,11 +64,3 @@ void eval_error(const char *command, const char *format, ...)
     fputc('\n', stderr);
     va_end(arguments);
 }
-
-int eval_finish(const char *command)
-{
-    if (fflush(stdout) == 0 && !ferror(stdout))
-        return PROGRAM_DONE;
-    eval_error(command, "stdout: cannot write the results");
-    return PROGRAM_FAILED;
-}

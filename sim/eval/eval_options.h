@@ -23,11 +23,4 @@ warp_once_status_t eval_open(warp_once_t *once, const warp_once_place_t *place, 
 /** Write one line "COMMAND: what" on stderr. */
 void eval_error(const char *command, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/**
- * Push the results out.
- *
- * @return The exit status: 0, or 1 when stdout did not take them all (then said on stderr).
- */
-int eval_finish(const char *command);
-
 #endif

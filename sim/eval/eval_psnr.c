@@ -121,7 +121,7 @@ static int print_rows(work_t *work, const options_t *options, const char *comman
             eval_error(command, "board %s: warp_frame refused the sizes", work->once.board.name);
             return WARP_ONCE_FAILED;
         }
-    return eval_finish(command);
+    return program_finish(command);
 }
 
 static int sample_and_print(work_t *work, const options_t *options, const char *command)

@@ -60,8 +60,6 @@ static bool bind_interface(int can, const char *name, bool fd)
 
 static bool open_interface(pose_link_t *link, const char *name, bool fd, char error[POSE_LINK_MESSAGE_LENGTH])
 {
-    if (strlen(name) == 0 || strlen(name) >= IFNAMSIZ)
-        return fail(error, name, "not the name of an interface", "expected one like can0, or HOST:PORT");
     const int can = socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW);
     if (can < 0)
         return fail_until_up(error, name, "no CAN in this kernel, `modprobe can_raw`; a simulator is HOST:PORT", "");
@@ -79,8 +77,19 @@ static bool open_interface(pose_link_t *link, const char *name, bool fd, char er
     return true;
 }
 
+bool pose_link_check(const char *bus, char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    if (strchr(bus, ':') != NULL)
+        return pose_link_socketcand_check(bus, error);
+    if (strlen(bus) == 0 || strlen(bus) >= IFNAMSIZ)
+        return fail(error, bus, "not the name of an interface", "expected one like can0, or HOST:PORT");
+    return true;
+}
+
 bool pose_link_open(pose_link_t *link, const char *bus, bool fd, char error[POSE_LINK_MESSAGE_LENGTH])
 {
+    if (!pose_link_check(bus, error))
+        return false;
     if (strchr(bus, ':') == NULL)
         return open_interface(link, bus, fd, error);
     if (fd) {

@@ -16,6 +16,13 @@ typedef struct {
 } pose_link_t;
 
 /**
+ * Can this text name a bus? Nothing is looked up or opened.
+ *
+ * @param[out] error  On failure: one line without newline, what was expected.
+ */
+bool pose_link_check(const char *bus, char error[POSE_LINK_MESSAGE_LENGTH]);
+
+/**
  * Connect. A name with a colon is HOST:PORT (IPv6: [HOST]:PORT) of a socketcand server, whose bus is called can0;
  * a port where nobody listens yet is tried again for 5 s. Any other name is a SocketCAN interface.
  *

@@ -9,6 +9,7 @@
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/time.h>
@@ -18,6 +19,7 @@
 enum {
     CONNECT_TRIES = 50,
     CONNECT_PAUSE_MS = 100,
+    MOST_PORT = 65535,
     ANSWER_TIMEOUT_S = 5,
     SEND_TIMEOUT_S = 1,
     FINISH_TIMEOUT_S = 2,
@@ -46,10 +48,29 @@ static bool split_address(const char *bus, char host[64], char port[8])
     const size_t digits = strspn(colon + 1, "0123456789");
     if (length == 0 || length >= 64 || digits == 0 || digits > 5 || colon[1 + digits] != '\0')
         return false;
+    const long number = strtol(colon + 1, NULL, 10);
+    if (number < 1 || number > MOST_PORT)
+        return false;
     memcpy(host, first, length);
     host[length] = '\0';
     memcpy(port, colon + 1, digits + 1);
     return true;
+}
+
+static int fail_address(const char *bus, char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    return fail(error, bus, "not an address",
+                "expected HOST:PORT with a port from 1 to 65535, such as 127.0.0.1:29536");
+}
+
+bool pose_link_socketcand_check(const char *bus, char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    char host[64];
+    char port[8];
+    if (split_address(bus, host, port))
+        return true;
+    fail_address(bus, error);
+    return false;
 }
 
 static int connect_once(const struct addrinfo *addresses)
@@ -77,12 +98,12 @@ static int connect_patiently(const char *bus, char error[POSE_LINK_MESSAGE_LENGT
     char host[64];
     char port[8];
     if (!split_address(bus, host, port))
-        return fail(error, bus, "not an address", "expected HOST:PORT, such as 127.0.0.1:28600");
+        return fail_address(bus, error);
     const struct addrinfo hints = {.ai_family = AF_UNSPEC, .ai_socktype = SOCK_STREAM};
     struct addrinfo *addresses = NULL;
     const int found = getaddrinfo(host, port, &hints, &addresses);
     if (found != 0)
-        return fail(error, bus, gai_strerror(found), "expected HOST:PORT, such as 127.0.0.1:28600");
+        return fail(error, bus, gai_strerror(found), "expected HOST:PORT, such as 127.0.0.1:29536");
     int client = -1;
     for (int i = 0; i < CONNECT_TRIES && client < 0; i++) {
         if (i > 0)

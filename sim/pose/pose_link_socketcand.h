@@ -6,6 +6,13 @@
 #include "sim/pose/pose_link.h"
 
 /**
+ * Is it HOST:PORT or [HOST]:PORT, with a port from 1 to 65535?
+ *
+ * @param[out] error  Written only on failure.
+ */
+bool pose_link_socketcand_check(const char *bus, char error[POSE_LINK_MESSAGE_LENGTH]);
+
+/**
  * Connect to HOST:PORT, open can0, go to raw mode.
  *
  * @param[out] error  Written only on failure.

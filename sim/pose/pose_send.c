@@ -2,21 +2,24 @@
 // Sends a pose list onto a bus at its own pace.
 #include "sim/pose/pose_send.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <time.h>
 
 #include "firmware/can_protocol.h"
 #include "sim/devices/sim_clock.h"
 
-enum { PROGRESS_EVERY_US = 250000, NS_PER_US = 1000, US_PER_S = 1000000 };
+enum { PROGRESS_EVERY_US = 250000, LONGEST_SLEEP_US = 100000, NS_PER_US = 1000, US_PER_S = 1000000 };
 
-static void sleep_until_us(int64_t time_us)
+/* In short sleeps: a signal between the look at stop and the sleep would be slept over. */
+static void sleep_until_us(int64_t time_us, const volatile sig_atomic_t *stop)
 {
-    const struct timespec when = {.tv_sec = (time_t)(time_us / US_PER_S),
-                                  .tv_nsec = (long)(time_us % US_PER_S) * NS_PER_US};
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &when, NULL) == EINTR)
-        continue;
+    int64_t now_us = sim_clock_monotonic_us();
+    for (; now_us < time_us && !*stop; now_us = sim_clock_monotonic_us()) {
+        const int64_t end_us = time_us - now_us > LONGEST_SLEEP_US ? now_us + LONGEST_SLEEP_US : time_us;
+        const struct timespec when = {.tv_sec = (time_t)(end_us / US_PER_S),
+                                      .tv_nsec = (long)(end_us % US_PER_S) * NS_PER_US};
+        (void)clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &when, NULL);
+    }
 }
 
 /* @return Frames made: 1, 3, or 0 when the pose does not fit. */
@@ -53,24 +56,27 @@ static void show(size_t sent, const pose_list_t *list, int64_t since_us)
             (double)length_us / US_PER_S);
 }
 
-bool pose_send_list(pose_link_t *link, const pose_list_t *list, bool fd, bool show_progress,
-                    char error[POSE_LINK_MESSAGE_LENGTH])
+bool pose_send_list(pose_link_t *link, const pose_send_t *send, size_t *sent, char error[POSE_LINK_MESSAGE_LENGTH])
 {
+    const pose_list_t *list = send->list;
     const int64_t start_us = sim_clock_monotonic_us();
     int64_t shown_us = start_us;
-    for (size_t i = 0; i < list->count; i++) {
-        sleep_until_us(start_us + list->entry[i].time_us - list->entry[0].time_us);
+    for (*sent = 0; *sent < list->count; ++*sent) {
+        const pose_list_entry_t *entry = &list->entry[*sent];
+        sleep_until_us(start_us + entry->time_us - list->entry[0].time_us, send->stop);
+        if (*send->stop)
+            break;
         const int64_t time_us = sim_clock_monotonic_us();
         hal_can_frame_t frame[CAN_POSE_PARTS];
-        const int frames = encode(frame, &list->entry[i].pose, fd, time_us, (uint64_t)start_us + i);
+        const int frames = encode(frame, &entry->pose, send->fd, time_us, (uint64_t)start_us + *sent);
         if (!pose_link_send(link, frame, frames, error))
             return false;
-        if (show_progress && time_us - shown_us >= PROGRESS_EVERY_US) {
-            show(i + 1, list, time_us - start_us);
+        if (send->show_progress && time_us - shown_us >= PROGRESS_EVERY_US) {
+            show(*sent + 1, list, time_us - start_us);
             shown_us = time_us;
         }
     }
-    if (show_progress)
+    if (send->show_progress)
         fprintf(stderr, "\r%60s\r", "");
     return true;
 }

@@ -3,10 +3,20 @@
 #ifndef SIM_POSE_POSE_SEND_H
 #define SIM_POSE_POSE_SEND_H
 
+#include <signal.h>
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "sim/pose/pose_link.h"
 #include "sim/pose/pose_list.h"
+
+/** What is sent, and how. */
+typedef struct {
+    const pose_list_t *list;           /**< passed by pose_send_check() with the same fd */
+    bool fd;                           /**< one CAN FD frame a pose, else a set of three classic frames */
+    bool show_progress;                /**< write a line about it to stderr now and then */
+    const volatile sig_atomic_t *stop; /**< when it becomes non-zero, no further pose is sent; looked at every 100 ms */
+} pose_send_t;
 
 /**
  * Does every pose fit the messages?
@@ -20,11 +30,9 @@ bool pose_send_check(const pose_list_t *list, bool fd, char error[POSE_LINK_MESS
  * capture time that goes out is the moment of sending on this machine's monotonic clock, whose low bits also start
  * the counter: a list sent twice is not taken for a repetition.
  *
- * @param list           Passed by pose_send_check() with the same fd.
- * @param show_progress  Write a line about it to stderr now and then.
+ * @param[out] sent  Poses handed to the link: all of them, unless it failed or was stopped.
  * @return false when the link failed.
  */
-bool pose_send_list(pose_link_t *link, const pose_list_t *list, bool fd, bool show_progress,
-                    char error[POSE_LINK_MESSAGE_LENGTH]);
+bool pose_send_list(pose_link_t *link, const pose_send_t *send, size_t *sent, char error[POSE_LINK_MESSAGE_LENGTH]);
 
 #endif

@@ -9,7 +9,7 @@
 #include "sim/files/png_file.h"
 #include "sim/run/run_judge.h"
 
-enum { LOOKS = 2, PATH_LENGTH = 4096 };
+enum { LOOKS = 2 };
 
 bool run_draw_viewer(image_t *viewer, const camera_t *camera)
 {
@@ -26,14 +26,18 @@ bool run_draw_viewer(image_t *viewer, const camera_t *camera)
     return true;
 }
 
+bool run_draw_path(char path[RUN_DRAW_PATH_LENGTH], const char *folder, const char *name, int32_t frame,
+                   char error[FILE_ERROR_LENGTH])
+{
+    const int length = snprintf(path, RUN_DRAW_PATH_LENGTH, "%s/%s_%05d.png", folder, name, frame);
+    return (length >= 0 && length < RUN_DRAW_PATH_LENGTH) || file_error(error, folder, "the name is too long");
+}
+
 static bool write_numbered(const run_draw_config_t *config, const char *name, int32_t frame, const image_t *image,
                            char error[FILE_ERROR_LENGTH])
 {
-    char path[PATH_LENGTH];
-    const int length = snprintf(path, sizeof path, "%s/%s_%05d.png", config->folder, name, frame);
-    if (length < 0 || (size_t)length >= sizeof path)
-        return file_error(error, config->folder, "the name is too long");
-    return png_file_write(path, image, error);
+    char path[RUN_DRAW_PATH_LENGTH];
+    return run_draw_path(path, config->folder, name, frame, error) && png_file_write(path, image, error);
 }
 
 static bool write_viewer(const run_draw_config_t *config, const run_job_t *job, const homography_t *homography,

@@ -39,6 +39,16 @@ enum { RUN_DRAW_VIEWER_WIDTH = 1280 };
  */
 bool run_draw_viewer(image_t *viewer, const camera_t *camera);
 
+enum { RUN_DRAW_PATH_LENGTH = 4096 };
+
+/**
+ * The path of a numbered picture: FOLDER/NAME_NNNNN.png.
+ *
+ * @param[out] error  On failure: the path is too long.
+ */
+bool run_draw_path(char path[RUN_DRAW_PATH_LENGTH], const char *folder, const char *name, int32_t frame,
+                   char error[FILE_ERROR_LENGTH]);
+
 /**
  * Write FOLDER/BOARD_NNNNN.png for each board and, when there is an eye, viewer_NNNNN.png: what it sees, and
  * uncompensated_NNNNN.png: what it would see if the camera's picture went straight to every projector.

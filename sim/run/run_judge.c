@@ -9,7 +9,7 @@
 #include "sim/eval/mesh_psnr.h"
 #include "sim/files/pixel.h"
 
-enum { USUAL_FACTOR = 4, FINE_FACTOR = 16, MUCH_FINER = 3 };
+enum { USUAL_FACTOR = 4, FINER_FACTOR = 8, MUCH_FINER_FACTOR = 16, MUCH_FINER = 3 };
 
 static bool luma_copy(image_t *gray, const image_t *colour)
 {
@@ -26,11 +26,19 @@ static bool luma_copy(image_t *gray, const image_t *colour)
     return true;
 }
 
+/* @return Whether the panel is that many times as fine as the picture, or more, along an axis. */
+static bool is_finer(const run_judge_t *wall, int32_t times, int32_t more)
+{
+    return wall->shown->width >= times * wall->picture->width + more ||
+           wall->shown->height >= times * wall->picture->height + more;
+}
+
 /* Samples per picture pixel, a multiple of q. */
 static int32_t factor_for(const run_judge_t *wall, int32_t q)
 {
-    const bool fine = wall->shown->width >= MUCH_FINER * wall->picture->width;
-    const int32_t wanted = fine ? FINE_FACTOR : USUAL_FACTOR;
+    const int32_t wanted = is_finer(wall, MUCH_FINER, 0) ? MUCH_FINER_FACTOR
+                           : is_finer(wall, 1, 1)        ? FINER_FACTOR
+                                                         : USUAL_FACTOR;
     return (wanted + q - 1) / q * q;
 }
 

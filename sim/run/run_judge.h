@@ -18,8 +18,8 @@ typedef struct {
 /**
  * Judge a wall by the mesh evaluation (sim/eval/mesh_psnr.h).
  *
- * Samples per picture pixel: 4 along each axis; 16 where the projector is much finer than the picture, and a multiple
- * of q. Uses the heap.
+ * Samples per picture pixel along each axis: 4 where the panel has no more pixels than the picture, 16 where it has 3
+ * times as many or more, else 8 (along the axis with most); rounded up to a multiple of q. Uses the heap.
  *
  * @param[in,out] psnr   On success everything but frame and board is written.
  * @param[out]    error  On failure: one line.

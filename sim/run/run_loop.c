@@ -36,6 +36,30 @@ static void record_bus(run_loop_t *loop, run_frame_t *frame)
     loop->elapsed_ns = bus.elapsed_ns;
 }
 
+/* Take what clients have sent, let it pass over the bus until now, and give them what was heard. */
+static void serve_bus(run_loop_t *loop, int64_t now_us)
+{
+    socketcand_server_poll(loop->server);
+    sim_bus_advance(sim_world_bus(loop->world), now_us);
+    socketcand_server_poll(loop->server);
+}
+
+/*
+ * In real time the boards of this process take turns, some 10 ms each; the bus is served before every turn, so that
+ * each board hears and stamps its frames as one with a processor of its own would.
+ */
+static bool step_boards(run_loop_t *loop, int64_t now_us, char error[FILE_ERROR_LENGTH])
+{
+    if (loop->server == NULL)
+        return sim_world_step(loop->world, now_us, error);
+    const bool ok = sim_world_advance(loop->world, now_us, error);
+    for (int32_t i = 0; i < loop->record->boards; i++) {
+        serve_bus(loop, sim_clock_monotonic_us());
+        sim_world_step_board(loop->world, i);
+    }
+    return ok;
+}
+
 /* One step of every board, and what it did. */
 static bool make_step(run_loop_t *loop, int64_t now_us)
 {
@@ -45,7 +69,7 @@ static bool make_step(run_loop_t *loop, int64_t now_us)
         fprintf(stderr, "wallwarp-sim: out of memory after %" PRId32 " frames\n", record->frames);
         return false;
     }
-    if (!sim_world_step(loop->world, now_us, error) && !loop->camera_told) {
+    if (!step_boards(loop, now_us, error) && !loop->camera_told) {
         fprintf(stderr, "warning: camera: %s\n", error);
         loop->camera_told = true;
     }
@@ -108,12 +132,9 @@ bool run_loop_virtual(run_loop_t *loop)
 /* Keep the bus and its clients going until a vertical blank, and until there is room for the pictures of a frame. */
 static int64_t wait_for_blank(run_loop_t *loop, int64_t blank)
 {
-    sim_bus_t *bus = sim_world_bus(loop->world);
     for (;;) {
         const int64_t now_us = sim_clock_monotonic_us();
-        socketcand_server_poll(loop->server);
-        sim_bus_advance(bus, now_us);
-        socketcand_server_poll(loop->server);
+        serve_bus(loop, now_us);
         const int64_t reached = sim_rate_beat_at(&loop->refresh, now_us);
         if (reached >= blank && run_pictures_ready(loop->pictures))
             return reached;

@@ -2,6 +2,7 @@
 // A run of a whole room: from a pose list in virtual time, or in real time with the bus open on a port.
 #include "sim/run/sim_run.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -10,6 +11,7 @@
 #include "sim/program.h"
 #include "sim/run/page.h"
 #include "sim/run/plots.h"
+#include "sim/run/run_clean.h"
 #include "sim/run/run_loop.h"
 #include "sim/run/run_rate.h"
 #include "sim/run/run_summary.h"
@@ -32,12 +34,18 @@ typedef struct {
     run_draw_config_t draw;
     run_pictures_t *pictures;
     run_loop_t loop;
+    bool interrupted; /* before the end of a run in virtual time */
     char error[ERROR_LENGTH];
 } run_t;
 
 static bool is_real(const run_t *run)
 {
     return run->options->poses == NULL;
+}
+
+static double refresh_hz(const run_t *run)
+{
+    return (double)run->loop.refresh.frames / run->loop.refresh.seconds;
 }
 
 static bool open_original(run_t *run)
@@ -67,7 +75,7 @@ static bool open_inputs(run_t *run)
     return run->video != NULL && open_original(run);
 }
 
-static void plan(run_t *run)
+static bool plan(run_t *run)
 {
     const sim_run_options_t *options = run->options;
     run_loop_t *loop = &run->loop;
@@ -78,12 +86,17 @@ static void plan(run_t *run)
     loop->frames = options->frames > 0 ? options->frames
                    : is_real(run)      ? INT64_MAX
                                        : run_rate_frames(&loop->refresh, &run->poses);
+    if (loop->frames > SIM_RUN_MAX_FRAMES && !is_real(run))
+        return file_error(run->error, options->poses,
+                          "lasts %" PRId64 " frames at %.5g Hz, expected at most %d; --frames N makes the first N",
+                          loop->frames, refresh_hz(run), SIM_RUN_MAX_FRAMES);
     loop->refresh.start_us += loop->start_us;
     loop->judge_every = options->judge;
     if (options->judge == SIM_RUN_JUDGE_USUAL)
         loop->judge_every = loop->frames == INT64_MAX      ? JUDGED_WITHOUT_END
                             : loop->frames < JUDGED_FRAMES ? 1
                                                            : (int32_t)(loop->frames / JUDGED_FRAMES);
+    return true;
 }
 
 static bool open_world(run_t *run)
@@ -108,8 +121,20 @@ static bool open_world(run_t *run)
     return pose_sender_open(&run->sender, &sender) || file_error(run->error, "bus", "has no room for a tracker");
 }
 
+/* What the run is made of must not lie where run_clean() deletes. */
+static bool inputs_lie_elsewhere(run_t *run)
+{
+    const char *inputs[2] = {run->options->video, run->options->original};
+    for (int i = 0; i < 2; i++)
+        if (inputs[i] != NULL && run_clean_lies_in(run->options->out, inputs[i]))
+            return file_error(run->error, inputs[i], "lies in the folder that the run writes to, expected another");
+    return true;
+}
+
 static bool open_outputs(run_t *run)
 {
+    if (!inputs_lie_elsewhere(run) || !run_clean(run->options->out, &run->room, run->error))
+        return false;
     if (!run_files_open(&run->files, run->options->out, run->loop.start_us, run->error))
         return false;
     run->files_open = true;
@@ -138,6 +163,7 @@ static bool make_frames(run_t *run, const volatile sig_atomic_t *stop)
     const bool looped = is_real(run) ? run_loop_real(loop) : run_loop_virtual(loop);
     const bool drawn = run_pictures_finish(run->pictures, &run->record, run->error);
     run->pictures = NULL;
+    run->interrupted = looped && !is_real(run) && run->record.frames < loop->frames;
     if (!looped && drawn)
         file_error(run->error, "run", "out of memory");
     return looped && drawn;
@@ -156,7 +182,7 @@ static bool tell(run_t *run)
         .poses_name = options->poses,
         .original_name = options->original,
         .method_name = options->method != NULL ? options->method->name : NULL,
-        .rate_hz = (double)run->loop.refresh.frames / run->loop.refresh.seconds,
+        .rate_hz = refresh_hz(run),
         .real = is_real(run),
         .skipped = run->loop.skipped,
         .poses_sent = run->sender.sent,
@@ -187,18 +213,21 @@ static void close_run(run_t *run)
 
 int sim_run(const sim_run_options_t *options, const volatile sig_atomic_t *stop)
 {
+    static const char name[] = "wallwarp-sim run";
     run_t *run = calloc(1, sizeof *run);
     if (run == NULL) {
-        fprintf(stderr, "wallwarp-sim run: out of memory\n");
+        fprintf(stderr, "%s: out of memory\n", name);
         return PROGRAM_FAILED;
     }
     run->options = options;
-    bool ok = open_inputs(run);
-    if (ok)
-        plan(run);
-    ok = ok && open_world(run) && open_outputs(run) && make_frames(run, stop) && tell(run);
+    const bool ok =
+        open_inputs(run) && plan(run) && open_world(run) && open_outputs(run) && make_frames(run, stop) && tell(run);
     if (!ok)
-        fprintf(stderr, "wallwarp-sim run: %s\n", run->error);
+        fprintf(stderr, "%s: %s\n", name, run->error);
+    if (run->interrupted)
+        fprintf(stderr, "%s: interrupted after %" PRId32 " of %" PRId64 " frames\n", name, run->record.frames,
+                run->loop.frames);
+    const bool done = ok && !run->interrupted;
     close_run(run);
-    return ok ? PROGRAM_DONE : PROGRAM_FAILED;
+    return program_finish(name) == PROGRAM_DONE && done ? PROGRAM_DONE : PROGRAM_FAILED;
 }

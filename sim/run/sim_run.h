@@ -15,7 +15,7 @@ typedef struct {
     const char *room, *video;
     const char *poses;           /**< pose list: virtual time; NULL with a port */
     int bus_port;                /**< 0 (any free one) to 65535: real time; SIM_RUN_NO_BUS with a pose list */
-    const char *out;             /**< folder; made if it is missing, files in it are overwritten */
+    const char *out;             /**< folder; made if it is missing; run_clean() deletes what a run before has left */
     int32_t frames;              /**< 0: as long as the list, or until *stop */
     const warp_method_t *method; /**< of every board; NULL for the room's */
     double rate_hz;              /**< refresh; 0: the list's own rate up to 60 Hz, or 60 Hz */
@@ -32,8 +32,10 @@ typedef struct {
  * Real time: "bus on 127.0.0.1:PORT (socketcand, channel can0)" on stdout, at once. Refreshes that this machine can't
  * hold are skipped and counted; every frame that is made has its pictures.
  *
- * @param stop  When it becomes non-zero the run ends after the present frame, as if it were the last.
- * @return The exit status: 0, or 1 after an error message.
+ * @param stop  When it becomes non-zero the run ends after the present frame, as if it were the last; in virtual time
+ *              stderr then says how many frames are missing.
+ * @return The exit status: 0; 1 after an error message, after a stop before the end of a run in virtual time, or when
+ *         stdout did not take the table.
  */
 int sim_run(const sim_run_options_t *options, const volatile sig_atomic_t *stop);
 

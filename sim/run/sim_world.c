@@ -132,7 +132,7 @@ const projector_t *sim_world_projector(const sim_world_t *world, int32_t board)
     return world->node[board].projector;
 }
 
-bool sim_world_step(sim_world_t *world, int64_t now_us, char error[FILE_ERROR_LENGTH])
+bool sim_world_advance(sim_world_t *world, int64_t now_us, char error[FILE_ERROR_LENGTH])
 {
     bool ok = true;
     sim_bus_advance(world->bus, now_us);
@@ -143,11 +143,21 @@ bool sim_world_step(sim_world_t *world, int64_t now_us, char error[FILE_ERROR_LE
         sim_display_advance(devices->display, now_us);
         ok &= sim_camera_advance(devices->camera, now_us, error);
     }
-    for (int32_t i = 0; i < world->config.room->board_count; i++) {
-        const int64_t begin_us = sim_clock_monotonic_us();
-        projector_step(world->node[i].projector);
-        world->node[i].step_time_us = sim_clock_monotonic_us() - begin_us;
-    }
+    return ok;
+}
+
+void sim_world_step_board(sim_world_t *world, int32_t board)
+{
+    const int64_t begin_us = sim_clock_monotonic_us();
+    projector_step(world->node[board].projector);
+    world->node[board].step_time_us = sim_clock_monotonic_us() - begin_us;
+}
+
+bool sim_world_step(sim_world_t *world, int64_t now_us, char error[FILE_ERROR_LENGTH])
+{
+    const bool ok = sim_world_advance(world, now_us, error);
+    for (int32_t i = 0; i < world->config.room->board_count; i++)
+        sim_world_step_board(world, i);
     return ok;
 }
 

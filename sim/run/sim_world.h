@@ -47,13 +47,18 @@ const hal_board_t *sim_world_devices(const sim_world_t *world, int32_t board);
 const projector_t *sim_world_projector(const sim_world_t *world, int32_t board);
 
 /**
- * One refresh: bring bus, clocks, displays and cameras to now_us, then let every board do one projector_step(), in
- * the order of the room file.
+ * Bring bus, clocks, displays and cameras to now_us.
  *
  * @param      now_us  Just after a vertical blank; never less than at the last call.
  * @param[out] error   On failure: a camera could not read its video.
- * @return false when a picture was lost because the video could not be read; the step was made all the same.
+ * @return false when a picture was lost because the video could not be read; all else is done.
  */
+bool sim_world_advance(sim_world_t *world, int64_t now_us, char error[FILE_ERROR_LENGTH]);
+
+/** Let one board do one projector_step(). */
+void sim_world_step_board(sim_world_t *world, int32_t board);
+
+/** One refresh: sim_world_advance(), then a step of every board, in the order of the room file. */
 bool sim_world_step(sim_world_t *world, int64_t now_us, char error[FILE_ERROR_LENGTH]);
 
 /**

@@ -4,6 +4,7 @@
 #include <netinet/in.h>
 #include <pthread.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -111,6 +112,7 @@ static const pose_list_entry_t WALK[] = {
     {.time_us = 5030000, .pose = {.eye_nm = {3000000, 0, -2000000}, .quaternion_q30 = {0, 0, 0, -(1 << 30)}}},
 };
 enum { STEPS = sizeof WALK / sizeof WALK[0] };
+static const volatile sig_atomic_t going_on = 0;
 
 /* Reads the next "< send ... >" and moves on behind it. */
 static hal_can_frame_t next_frame(const char **text)
@@ -143,10 +145,12 @@ static void test_a_list_arrives_pose_by_pose_with_rising_times(void **state)
     char error[POSE_LINK_MESSAGE_LENGTH] = "";
     assert_true(pose_send_check(&list, false, error));
     assert_true(pose_link_open(&link, server.address, false, error));
+    size_t sent = 0;
     struct timespec before;
     assert_int_equal(clock_gettime(CLOCK_MONOTONIC, &before), 0);
     const uint64_t before_us = (uint64_t)before.tv_sec * 1000000 + (uint64_t)before.tv_nsec / 1000;
-    assert_true(pose_send_list(&link, &list, false, false, error));
+    assert_true(pose_send_list(&link, &(pose_send_t){.list = &list, .stop = &going_on}, &sent, error));
+    assert_int_equal(sent, STEPS);
     pose_link_close(&link);
     stop_server(&server);
 
@@ -166,6 +170,39 @@ static void test_a_list_arrives_pose_by_pose_with_rising_times(void **state)
     const uint64_t since_us =
         (got[2].capture_time_us + CAN_POSE_SET_WRAP_US - before_us % CAN_POSE_SET_WRAP_US) % CAN_POSE_SET_WRAP_US;
     assert_true(since_us >= 29900);
+}
+
+static volatile sig_atomic_t stop_requested;
+
+static void request_stop(int signal_number)
+{
+    (void)signal_number;
+    stop_requested = 1;
+}
+
+static void test_a_stop_ends_a_list_before_its_end(void **state)
+{
+    (void)state;
+    static server_t server;
+    start_server(&server, "< hi >", "< ok >");
+    pose_list_entry_t entry[STEPS];
+    memcpy(entry, WALK, sizeof entry);
+    entry[2].time_us += INT64_C(3600000000);
+    const pose_list_t list = {.entry = entry, .count = STEPS};
+    pose_link_t link;
+    char error[POSE_LINK_MESSAGE_LENGTH] = "";
+    assert_true(pose_link_open(&link, server.address, false, error));
+    signal(SIGALRM, request_stop);
+    alarm(1);
+    size_t sent = STEPS;
+    assert_true(pose_send_list(&link, &(pose_send_t){.list = &list, .stop = &stop_requested}, &sent, error));
+    pose_link_close(&link);
+    stop_server(&server);
+    assert_true(sent < STEPS);
+    const char *text = server.heard + strlen("< open can0 >< rawmode >");
+    for (size_t i = 0; i < sent * CAN_POSE_PARTS; i++)
+        (void)next_frame(&text);
+    assert_string_equal(text, "");
 }
 
 static void test_poses_that_do_not_fit_are_found_before_sending(void **state)
@@ -201,6 +238,22 @@ static void test_servers_that_answer_wrongly_are_refused(void **state)
     }
 }
 
+static void test_texts_that_can_name_a_bus(void **state)
+{
+    (void)state;
+    static const char *const GOOD[] = {"127.0.0.1:1", "localhost:65535", "[::1]:28600", "can0", "nocan0"};
+    static const char *const BAD[] = {"127.0.0.1:65536", "127.0.0.1:99999", "127.0.0.1:0",
+                                      "127.0.0.1:",      ":29536",          "127.0.0.1:+80",
+                                      "127.0.0.1: 80",   "::1:80",          ""};
+    char error[POSE_LINK_MESSAGE_LENGTH] = "";
+    for (size_t i = 0; i < sizeof GOOD / sizeof GOOD[0]; i++)
+        if (!pose_link_check(GOOD[i], error))
+            fail_msg("\"%s\" was refused: %s", GOOD[i], error);
+    for (size_t i = 0; i < sizeof BAD / sizeof BAD[0]; i++)
+        if (pose_link_check(BAD[i], error))
+            fail_msg("\"%s\" was taken", BAD[i]);
+}
+
 static void test_bad_names_are_refused_with_advice(void **state)
 {
     (void)state;
@@ -214,6 +267,8 @@ static void test_bad_names_are_refused_with_advice(void **state)
         {"127.0.0.1:", false, "not an address; expected HOST:PORT"},
         {"127.0.0.1:port", false, "not an address; expected HOST:PORT"},
         {"127.0.0.1:123456", false, "not an address; expected HOST:PORT"},
+        {"127.0.0.1:65536", false, "a port from 1 to 65535"},
+        {"127.0.0.1:0", false, "a port from 1 to 65535"},
         {"::1:28600", false, "not an address; expected HOST:PORT"},
         {"", false, "not the name of an interface"},
         {"an_interface_with_a_long_name", false, "not the name of an interface"},
@@ -235,8 +290,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_frames_arrive_as_socketcand_text),
         cmocka_unit_test(test_a_list_arrives_pose_by_pose_with_rising_times),
+        cmocka_unit_test(test_a_stop_ends_a_list_before_its_end),
         cmocka_unit_test(test_poses_that_do_not_fit_are_found_before_sending),
         cmocka_unit_test(test_servers_that_answer_wrongly_are_refused),
+        cmocka_unit_test(test_texts_that_can_name_a_bus),
         cmocka_unit_test(test_bad_names_are_refused_with_advice),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

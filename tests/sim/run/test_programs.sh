@@ -4,59 +4,7 @@
 # Usage, from the tree's root: tests/sim/run/test_programs.sh BUILD_FOLDER
 set -u
 build=${1:?usage: test_programs.sh BUILD_FOLDER}
-picture=tests/images/studio_480x270.png
-scratch=$(mktemp -d "${TMPDIR:-/tmp}/wallwarp-programs.XXXXXX") || exit 1
-started=
-trap 'for id in $started; do kill -KILL "$id" 2>/dev/null; done; rm -rf "$scratch"' EXIT
-passed=0
-failed=0
-
-# check NAME STATUS: note a result; STATUS 0 is good.
-check() {
-    if [ "$2" -eq 0 ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAIL $1"
-    fi
-}
-
-# refuses STATUS TEXT COMMAND ...: the command must end with STATUS and say TEXT on stderr.
-refuses() {
-    status=$1
-    text=$2
-    shift 2
-    timeout 60 "$@" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
-    found=$?
-    [ "$found" -eq "$status" ] && grep -qF -- "$text" "$scratch/stderr"
-    good=$?
-    [ "$good" -eq 0 ] || { echo "status $found, said:"; cat "$scratch/stderr"; }
-    check "refuses: $* ($status, $text)" "$good"
-}
-
-write_room() {
-    cat <<END
-camera: {width: 480, height: 270, focal_px: [300, 300], principal_px: [240, 135]}
-boards:
-  - name: front
-    node: 1
-    projector: {width: 160, height: 90}
-    wall: {corners_mm: [[-2000, -1125, 2000], [2000, -1125, 2000], [2000, 1125, 2000], [-2000, 1125, 2000]]}
-  - name: left
-    node: 2
-    projector: {width: 160, height: 90}
-    border: [20, 40, 60]
-    wall: {corners_mm: [[-2000, -1125, -2000], [-2000, -1125, 2000], [-2000, 1125, 2000], [-2000, 1125, -2000]]}
-can: {bitrate: 500000, data_bitrate: 2000000, fd: $1}
-END
-}
-
-# write_poses COUNT: COUNT poses at 30 Hz; they only move, so that rounding on the bus does not change them.
-write_poses() {
-    echo time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz
-    awk -v count="$1" 'BEGIN { for (n = 0; n < count; n++)
-        printf "%.6f,%.2f,%.2f,%.2f,1,0,0,0\n", 10 + n / 30, -900 + 37.25 * n, -100 + 11.5 * n, -700 + 20.75 * n }'
-}
+. tests/sim/run/programs.sh
 
 # same_as_warp DIR FRAME BOARD [OPTION ...]: the run's picture is the one wallwarp-sim warp makes for the pose used.
 same_as_warp() {
@@ -67,10 +15,6 @@ same_as_warp() {
     pose=$(awk -F, -v n="$frame" -v b="$board" '$1 == n && $3 == b { print $5 }' "$dir/frames.csv")
     [ -n "$pose" ] && "$build/wallwarp-sim" warp "$scratch/fd.yaml" --board "$board" --pose "$pose" --in $picture \
         --out "$scratch/warp.png" "$@" && cmp "$scratch/warp.png" "$dir/${board}_$(printf %05d "$frame").png"
-}
-
-run() {
-    timeout 120 "$build/wallwarp-sim" run "$@" >"$scratch/stdout" 2>"$scratch/stderr"
 }
 
 test_virtual_runs() {
@@ -144,18 +88,6 @@ run_without_path() {
     found=$?
     [ $found -eq 1 ] && [ -s "$scratch/bare/index.html" ] &&
         while read -r line; do case $line in *gnuplot-nox*) return 0 ;; esac; done <"$scratch/stderr"
-    return 1
-}
-
-# Wait until a file has a line that matches; print what is between "127.0.0.1:" and the next space.
-port_in() {
-    tries=0
-    while [ $tries -lt 200 ]; do
-        port=$(sed -n 's/.*bus on 127\.0\.0\.1:\([0-9]*\) .*/\1/p' "$1" 2>/dev/null)
-        [ -n "$port" ] && echo "$port" && return 0
-        sleep 0.1
-        tries=$((tries + 1))
-    done
     return 1
 }
 
@@ -264,10 +196,6 @@ test_bad_warps() {
     done
 }
 
-write_room true >"$scratch/fd.yaml"
-write_room false >"$scratch/classic.yaml"
-write_poses 10 >"$scratch/ten.csv"
-write_poses 1 >"$scratch/one.csv"
 printf 'time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz\n0,0,0,0,0,0,0,0\n' >"$scratch/zero.csv"
 test_virtual_runs
 test_repeated_run
@@ -276,5 +204,4 @@ test_live_run
 test_firmware
 test_bad_runs
 test_bad_warps
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+finish
