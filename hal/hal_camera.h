@@ -12,7 +12,7 @@ typedef struct hal_camera hal_camera_t;
 
 /** One captured picture, lent by the driver until it is released. */
 typedef struct {
-    image_t image;           /**< read only; XRGB8888 or GRAY8, of the size the room file states */
+    image_t image;           /**< read only; XRGB8888, of the size the room file states */
     int64_t capture_time_us; /**< when its first line was captured, on hal_time's clock */
     uint32_t sequence;       /**< the source's own count; a gap means lost pictures */
 } hal_camera_frame_t;

@@ -16,15 +16,15 @@ enum { FIR_MAX_K_Q16 = 64 << 16 };
  *
  * gauss   Sampled Gaussian, -3 dB at the cut-off: sigma = k sqrt(ln 2) / pi, cut at 4 sigma.
  * kaiser  sinc(n / k) / k under a Kaiser window of beta 5 and half length ceil(6 k); -6 dB at the cut-off.
- * butter  Zero phase, |H| = 1 / sqrt(1 + (2 k f)^8), order 4: the inverse DFT of |H| over 2048 points, cut at 8 k,
- *         where less than 10^-3 of it is left.
+ * butter  Zero phase, |H| = 1 / sqrt(1 + (2 k f)^8), order 4: the inverse DFT of |H| over 2048 points, cut at 8 k:
+ *         a weight beyond is below 2 * 10^-3, from k = 2 on below 10^-4.
  *
  * @param[out] fir     All of it that its radius covers.
  * @param      filter  Not WARP_FILTER_NONE.
  * @param      k_q16   Q16, above 1 and up to FIR_MAX_K_Q16.
  *
- * Once per change of k, which is every frame while the viewer walks: some 50 thousand instructions for gauss at k = 2,
- * some millions for kaiser and butter.
+ * Once per change of k, which is every frame while the viewer walks. Million x86 instructions at k = 2 and 64: gauss
+ * 0.03 at 2, kaiser 0.3 and 8, butter 2.6 and 10.
  */
 void fir_design(fir_t *fir, warp_filter_t filter, int32_t k_q16);
 

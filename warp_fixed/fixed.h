@@ -3,7 +3,7 @@
 //
 // Positions  Q18 int32: 13 integer bits reach +-8192 px, 18 fraction bits leave the grid's forward differences right
 //            to 2^-10 px over a span of 64.
-// Phases     Kernels see positions rounded to 1/128 px (1/64 would cost 0.02 dB, 0.1 where projector pixels are small).
+// Phases     Kernels see positions rounded to 1/128 px (1/64 costs 0.04 dB where these are a quarter of a texel).
 // Sums       Both passes of prefilter and window go from 8 bits to 8 bits through 16:
 //            first pass   v = sum(w1 * p), the weights' sum S1 is 128 (or 255 where no weight is negative);
 //                         less its middle, 128 * S1, v fits signed 16 bits with all that a cubic overshoots (without

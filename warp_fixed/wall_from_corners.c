@@ -65,8 +65,8 @@ static void map_from_quad(real_t map[2][3], real_t gh[2], const real_t xy[4][2])
     }
 }
 
-/* The corners in the plane's frame; an unknown one completes the parallelogram (eq 2). @return which one, or -1. */
-static int corners_on_plane(real_t xy[4][2], const plane_t *plane, const cloud_t *cloud, const bool known[4])
+/* The corners in the plane's frame; an unknown one completes the parallelogram (eq 2). */
+static void corners_on_plane(real_t xy[4][2], const plane_t *plane, const cloud_t *cloud, const bool known[4])
 {
     int unknown = -1, next = 0;
     for (int c = 0; c < 4; c++) {
@@ -79,16 +79,14 @@ static int corners_on_plane(real_t xy[4][2], const plane_t *plane, const cloud_t
         for (int a = 0; a < 2; a++)
             xy[unknown][a] =
                 real_sub(real_add(xy[(unknown + 1) & 3][a], xy[(unknown + 3) & 3][a]), xy[(unknown + 2) & 3][a]);
-    return unknown;
 }
 
 /* Panel pixels instead of the unit square, world axes instead of the plane's: fills point and weight. */
-static void wall_from_map(wall_t *wall, const plane_t *plane, const real_t map[2][3], const real_t gh[2], bool affine)
+static void wall_from_map(wall_t *wall, const plane_t *plane, const real_t map[2][3], const real_t gh[2])
 {
     const real_t one = real_from_int(1, 0);
     const real_t size[2] = {real_from_int(wall->panel_width, 0), real_from_int(wall->panel_height, 0)};
-    const real_t zero = real_from_int(0, 0);
-    const real_t weight[3] = {affine ? zero : gh[0], affine ? zero : gh[1], one};
+    const real_t weight[3] = {gh[0], gh[1], one};
     for (int k = 0; k < 3; k++) {
         wall->weight[k] = k < 2 ? real_div(weight[k], size[k]) : one;
         for (int a = 0; a < 3; a++) {
@@ -161,7 +159,7 @@ wall_status_t wall_from_corners(wall_t *wall, const wall_corners_t *measured)
     cloud_from_measured(&cloud, result.origin_um, measured);
     if (!plane_from_points(&plane, &cloud))
         return WALL_ON_A_LINE;
-    const int unknown = corners_on_plane(xy, &plane, &cloud, measured->corner_known);
+    corners_on_plane(xy, &plane, &cloud, measured->corner_known);
     const int first_turn = turn(xy[0], xy[1], xy[2]);
     for (int c = 0; c < 4; c++) {
         const int turned = turn(xy[c], xy[(c + 1) & 3], xy[(c + 2) & 3]);
@@ -171,7 +169,7 @@ wall_status_t wall_from_corners(wall_t *wall, const wall_corners_t *measured)
             return WALL_CROSSED;
     }
     map_from_quad(map, gh, (const real_t(*)[2])xy);
-    wall_from_map(&result, &plane, (const real_t(*)[3])map, gh, unknown >= 0);
+    wall_from_map(&result, &plane, (const real_t(*)[3])map, gh);
     plane_residuals(&result.rms_um, &result.worst_um, &plane, &cloud);
     measure_markers(&result, &plane, measured);
     result.skew_mdeg = worst_skew_mdeg((const real_t(*)[2])xy);

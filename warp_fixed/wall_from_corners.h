@@ -29,8 +29,8 @@ typedef struct {
  * The projector-to-wall map. A panel point (u, v), in pixels, lies at
  * origin_um + (point[0..2] . (u, v, 1)) / (weight . (u, v, 1)) in the world, micrometres.
  *
- * The weight is 1 at the panel's top-left corner and positive all over the panel; it is 1 everywhere when the picture
- * is a parallelogram (eq 2, with the principal point in the middle of the panel).
+ * The weight is 1 at the panel's top-left corner and positive all over the panel; it is 1 everywhere, to 2^-50, when
+ * the picture is a parallelogram (eq 2, with the principal point in the middle of the panel).
  */
 typedef struct {
     int32_t panel_width, panel_height;

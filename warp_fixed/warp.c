@@ -6,6 +6,10 @@
 
 #include "warp_fixed/fixed.h"
 
+enum { WHOLE_ROW_LOG2 = 12 };
+
+_Static_assert(IMAGE_MAX_WIDTH <= 1 << WHOLE_ROW_LOG2, "one block must hold a row");
+
 /* What the rows of one frame share. */
 typedef struct {
     warp_t *warp;
@@ -120,11 +124,15 @@ bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *repo
     frame.picture = prefilter_picture(&warp->prefilter, kernels, picture, warp->method.filter,
                                       warp->step_all ? step.all_q16 : step.in_q16);
 
+    /* Plain interpolation has no sides: one block, of side 0, serves every row. */
+    const bool averages = warp->method.resampler == WARP_AREA || warp->method.resampler == WARP_MEAN_CUBIC;
+    frame.block_log2 = WHOLE_ROW_LOG2;
+    warp->block[0] = (warp_block_t){{0, 0}, {0, 0}};
     int32_t lit = 0;
     for (int32_t j = 0; j < panel->height; j++) {
-        if (j % FOOTPRINT_BAND == 0)
+        if (averages && j % FOOTPRINT_BAND == 0)
             frame.block_log2 = footprint_block_log2(&warp->grid, j);
-        if (j % (1 << frame.block_log2) == 0 && warp->method.resampler != WARP_NEAREST)
+        if (averages && j % (1 << frame.block_log2) == 0)
             choose_blocks(&frame, j);
         make_row(&frame, j);
         lit += warp->grid.row[j].end - warp->grid.row[j].begin;

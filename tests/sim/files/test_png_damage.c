@@ -13,26 +13,8 @@
 #include <cmocka.h>
 #include <zlib.h>
 
+#include "tests/support/png_canvas.h"
 #include "tests/support/scratch.h"
-
-enum { WIDTH = 13, HEIGHT = 7, STRIDE = WIDTH * 4 + 5, UNTOUCHED = 0xA5 };
-
-typedef struct {
-    uint8_t bytes[STRIDE * HEIGHT];
-    image_t image;
-} canvas_t;
-
-static uint32_t next_random(uint32_t *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return *state >> 8;
-}
-
-static void blank_canvas(canvas_t *canvas, image_format_t format)
-{
-    memset(canvas->bytes, UNTOUCHED, sizeof canvas->bytes);
-    canvas->image = (image_t){canvas->bytes, WIDTH, HEIGHT, STRIDE, format};
-}
 
 static void assert_untouched(const canvas_t *canvas)
 {
