@@ -162,6 +162,7 @@ void fir_design(fir_t *fir, warp_filter_t filter, int32_t k_q16)
                            : filter == WARP_FILTER_BUTTER ? butter_q30(exact_q30, k_q16)
                                                           : gauss_q30(exact_q30, k_q16);
     fir->radius = radius;
+    fir->offset = PREFILTER_OFFSET;
     fir->first_shift = radius > PREFILTER_SHORT_RADIUS ? LONG_FIRST_SHIFT : 0;
     weights_to_sum(fir->first, exact_q30, radius, FIRST_SUM << fir->first_shift);
     weights_to_sum(fir->second, exact_q30, radius, SECOND_SUM);

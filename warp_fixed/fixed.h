@@ -11,6 +11,10 @@
 //            second pass  out = (sum(w2 * v) + 2^21) >> 22, the weights' sum S2 is chosen so that S1 * S2 = 2^22,
 //                         nearly: 32767 for 128 and 16448 for 255. A constant picture comes out unchanged:
 //                         |S1 * S2 - 2^22| <= 128 is at most 0.008 of a grey level.
+// Splines    Coefficients are int16 in 1/16 of a grey level, less the middle grey 128. The filter that makes them has
+//            absolute weights of sum 3 per axis (sqrt(3) sum |2 - sqrt(3)|^|n|), so they reach 9 * 128 * 16 = 18432.
+//            The B-spline's weights are never negative and sum to 2^15 on both axes: no sum is larger than 2^15 *
+//            18432.
 #ifndef WARP_FIXED_FIXED_H
 #define WARP_FIXED_FIXED_H
 
@@ -25,7 +29,10 @@ enum {
     FIRST_SUM_POSITIVE = 255,
     SECOND_SUM_POSITIVE = 16448,
     SUM_SHIFT = 22,
-    LONG_FIRST_SHIFT = 6 /**< long filters have as many bits more in the first pass, and lose them before the second */
+    LONG_FIRST_SHIFT = 6, /**< long filters have as many bits more in the first pass, and lose them before the second */
+    SPLINE_MIDDLE = 128,
+    SPLINE_FRACTION_BITS = 4,
+    SPLINE_SUM_LOG2 = 15
 };
 
 /** 64 x 64 -> 128 bit products, for the geometry only. */
@@ -58,6 +65,13 @@ static inline int64_t clamp_i64(int64_t x, int64_t low, int64_t high)
 static inline uint8_t pixel_from_sum(int32_t sum)
 {
     return (uint8_t)clamp_i32((sum + (1 << (SUM_SHIFT - 1))) >> SUM_SHIFT, 0, 255);
+}
+
+/** @return The second pass's sum over spline coefficients as a grey level, 0 to 255. */
+static inline uint8_t pixel_from_spline(int32_t sum)
+{
+    const int shift = SPLINE_SUM_LOG2 + SPLINE_FRACTION_BITS;
+    return (uint8_t)clamp_i32(((sum + (1 << (shift - 1))) >> shift) + SPLINE_MIDDLE, 0, 255);
 }
 
 /** @return floor(sqrt(x)). 32 steps. */

@@ -27,6 +27,14 @@ typedef struct {
     image_format_t format; /**< bytes per pixel */
 } image_t;
 
+/** A rectangle of spline coefficients (fixed.h), in the order of a picture's channels. Never owns the memory. */
+typedef struct {
+    int16_t *data;
+    int32_t width;    /**< pixels */
+    int32_t height;   /**< pixels */
+    int32_t channels; /**< coefficients per pixel; rows follow one another without gap */
+} coefficients_t;
+
 /** @return Row y of the picture; 0 <= y < height. */
 static inline uint8_t *image_row(const image_t *image, int32_t y)
 {

@@ -13,4 +13,7 @@ const warp_kernels_t warp_kernels_scalar = {
     .window_xrgb = resample_window_xrgb_scalar,
     .prefilter_columns = prefilter_columns_scalar,
     .prefilter_row = prefilter_row_scalar,
+    .spline_row = spline_row_scalar,
+    .spline_gray = resample_spline_gray_scalar,
+    .spline_xrgb = resample_spline_xrgb_scalar,
 };

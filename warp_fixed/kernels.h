@@ -31,18 +31,20 @@ typedef void grid_points_fn(int32_t *restrict x_q18, int32_t *restrict y_q18, co
 typedef void resample_nearest_fn(uint8_t *restrict out, const image_t *picture, const int32_t *restrict x_q18,
                                  const int32_t *restrict y_q18, int32_t count);
 
-/** Weights of a window along both axes, and the picture's place in the levels. */
+/** Weights of a window along both axes, and where its texels are. */
 typedef struct {
     window_axis_t x, y;
-    image_t picture;       /**< at its level */
-    int32_t width, height; /**< of level 0: points are clamped to it */
-    int level_x, level_y;  /**< a point is divided by 8^level */
+    image_t picture;             /**< at its level; or, for splines, */
+    coefficients_t coefficients; /**< its coefficients */
+    int32_t width, height;       /**< of level 0: points are clamped to it */
+    int level_x, level_y;        /**< a point is divided by 8^level */
 } window_t;
 
 /**
  * Weigh the window of texels around each point (window_weights.h). Texels beyond the picture's edge are mirrored.
  *
  * v = (sum_y first * texel + half) >> first_shift for each column, out = pixel_from_sum(sum_x second * v), per channel.
+ * The spline_* loops do the same on coefficients, where out = pixel_from_spline(sum_x second * v).
  *
  * @param[out] out      count pixels of the picture's format.
  * @param      x_q18, y_q18  count points; clamped here to the picture.
@@ -56,19 +58,20 @@ enum {
     PREFILTER_SHORT_RADIUS = 3 /**< up to here the first pass has 8-bit weights */
 };
 
-/** A symmetric FIR filter, in the two formats of fixed.h. */
+/** A symmetric FIR filter. */
 typedef struct {
     int32_t radius;
-    int32_t first_shift;                      /**< 0, or LONG_FIRST_SHIFT when radius > PREFILTER_SHORT_RADIUS */
+    int32_t first_shift;
     int16_t first[PREFILTER_MAX_RADIUS + 1];  /**< of distance 0, 1, ...: first[0] + 2 sum = FIRST_SUM << first_shift */
     int16_t second[PREFILTER_MAX_RADIUS + 1]; /**< likewise, SECOND_SUM */
+    int32_t offset;                           /**< the middle of the first pass's range, subtracted from it */
 } fir_t;
 
 /**
  * First pass of the prefilter: one output row from 2 radius + 1 rows, column by column.
  *
- * @param[out] v      count sums, each ((sum first * byte + half) >> first_shift) - PREFILTER_OFFSET: less its middle,
- * so that what a filter overshoots fits 16 bits too.
+ * @param[out] v      count sums, each ((sum first * byte + half) >> first_shift) - offset: less their middle, so that
+ *                    what a filter overshoots fits 16 bits too.
  * @param      rows   rows[0] to rows[2 radius], each of count bytes.
  * @param      count  Bytes of a row: width times channels.
  */
@@ -84,6 +87,14 @@ typedef void prefilter_columns_fn(int16_t *restrict v, const uint8_t *const *row
 typedef void prefilter_row_fn(uint8_t *restrict out, const int16_t *restrict v, const fir_t *fir, int32_t count,
                               int32_t channels);
 
+/**
+ * Second pass of the filter that turns a picture into spline coefficients (spline.h): (sum second * v + half) >> 16.
+ *
+ * @param[out] out  count coefficients; the other parameters are those of prefilter_row_fn.
+ */
+typedef void spline_row_fn(int16_t *restrict out, const int16_t *restrict v, const fir_t *fir, int32_t count,
+                           int32_t channels);
+
 /** The loops of one CPU level. */
 typedef struct {
     const char *name;
@@ -92,6 +103,8 @@ typedef struct {
     resample_window_fn *window_gray, *window_xrgb;
     prefilter_columns_fn *prefilter_columns;
     prefilter_row_fn *prefilter_row;
+    spline_row_fn *spline_row;
+    resample_window_fn *spline_gray, *spline_xrgb;
 } warp_kernels_t;
 
 /** Plain C: the definition of every loop. */

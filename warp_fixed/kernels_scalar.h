@@ -12,5 +12,8 @@ resample_window_fn resample_window_gray_scalar;
 resample_window_fn resample_window_xrgb_scalar;
 prefilter_columns_fn prefilter_columns_scalar;
 prefilter_row_fn prefilter_row_scalar;
+spline_row_fn spline_row_scalar;
+resample_window_fn resample_spline_gray_scalar;
+resample_window_fn resample_spline_xrgb_scalar;
 
 #endif

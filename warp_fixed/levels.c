@@ -11,8 +11,7 @@ static int32_t reduced(int32_t size, int level)
     return (size + (1 << (SHIFT * level)) - 1) >> (SHIFT * level);
 }
 
-/* Where the picture of a level lies among the pixels: after those of all lower ones, at their largest sizes. */
-static ptrdiff_t offset_of(int level_x, int level_y)
+ptrdiff_t levels_offset(int level_x, int level_y)
 {
     ptrdiff_t offset = 0;
     for (int level = 1; level < level_x * LEVELS + level_y; level++)
@@ -45,7 +44,7 @@ image_t levels_picture(levels_t *levels, const image_t *picture, int level_x, in
 {
     if (level_x == 0 && level_y == 0)
         return *picture;
-    image_t level = {levels->pixels + offset_of(level_x, level_y), reduced(picture->width, level_x),
+    image_t level = {levels->pixels + levels_offset(level_x, level_y), reduced(picture->width, level_x),
                      reduced(picture->height, level_y), 0, picture->format};
     level.stride = level.width * (int32_t)level.format;
     if (levels->made[level_x][level_y])

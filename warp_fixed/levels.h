@@ -26,6 +26,12 @@ typedef struct {
     uint8_t pixels[LEVELS_BYTES];
 } levels_t;
 
+/**
+ * @return Where the picture of a level lies among all but the first: after all lower ones at their largest sizes, in
+ *         channels. Not for level 0 along both axes.
+ */
+ptrdiff_t levels_offset(int level_x, int level_y);
+
 /** Forget the last frame's pictures. */
 void levels_begin(levels_t *levels);
 

@@ -3,15 +3,31 @@
 #ifndef WARP_FIXED_METHOD_H
 #define WARP_FIXED_METHOD_H
 
+#include <stdbool.h>
+
 typedef enum { WARP_FILTER_NONE, WARP_FILTER_GAUSS, WARP_FILTER_KAISER, WARP_FILTER_BUTTER } warp_filter_t;
 
 typedef enum {
-    WARP_NEAREST,   /**< the picture pixel under the point */
-    WARP_LINEAR,    /**< bilinear */
-    WARP_CUBIC,     /**< Keys' cubic convolution, a = -1/2 */
-    WARP_AREA,      /**< mean over the pixel's footprint of the picture as squares */
-    WARP_MEAN_CUBIC /**< mean over the footprint, less the picture pixels' own, of the cubic surface */
+    WARP_NEAREST,    /**< the picture pixel under the point */
+    WARP_LINEAR,     /**< bilinear */
+    WARP_CUBIC,      /**< Keys' cubic convolution, a = -1/2 */
+    WARP_SPLINE,     /**< interpolating cubic B-spline */
+    WARP_AREA,       /**< mean over the pixel's footprint of the picture as squares */
+    WARP_MEAN_CUBIC, /**< mean over the footprint, less the picture pixels' own, of the cubic surface */
+    WARP_MEAN_SPLINE /**< the same of the spline surface */
 } warp_resampler_t;
+
+/** @return true for those that average over footprints. */
+static inline bool warp_averages(warp_resampler_t resampler)
+{
+    return resampler == WARP_AREA || resampler == WARP_MEAN_CUBIC || resampler == WARP_MEAN_SPLINE;
+}
+
+/** @return true for those that resample spline coefficients. */
+static inline bool warp_splines(warp_resampler_t resampler)
+{
+    return resampler == WARP_SPLINE || resampler == WARP_MEAN_SPLINE;
+}
 
 /** One row of the table of methods. */
 typedef struct {
@@ -20,7 +36,7 @@ typedef struct {
     warp_resampler_t resampler;
 } warp_method_t;
 
-enum { WARP_METHODS = 14 };
+enum { WARP_METHODS = 19 };
 
 /** Every method of this build. The last one is the default. */
 extern const warp_method_t warp_methods[WARP_METHODS];

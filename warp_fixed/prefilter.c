@@ -10,15 +10,14 @@ void prefilter_init(prefilter_t *prefilter)
     prefilter->k_q16 = 0;
 }
 
-/* First pass of row y into the middle of sums, then its ends mirrored. */
-static int16_t *sums_of_row(prefilter_t *prefilter, const warp_kernels_t *kernels, const image_t *picture, int32_t y)
+const int16_t *prefilter_sums(prefilter_sums_t *sums, const warp_kernels_t *kernels, const fir_t *fir,
+                              const image_t *picture, int32_t y)
 {
-    const fir_t *fir = &prefilter->fir;
     const int32_t channels = (int32_t)picture->format, width = picture->width;
     const uint8_t *rows[2 * PREFILTER_MAX_RADIUS + 1];
     for (int32_t d = -fir->radius; d <= fir->radius; d++)
         rows[d + fir->radius] = image_row(picture, mirror_index(y + d, picture->height));
-    int16_t *middle = prefilter->sums + PREFILTER_MAX_RADIUS * channels;
+    int16_t *middle = sums->v + PREFILTER_MAX_RADIUS * channels;
     kernels->prefilter_columns(middle, rows, fir, width * channels);
     for (int32_t d = 1; d <= fir->radius; d++) {
         for (int32_t channel = 0; channel < channels; channel++) {
@@ -44,7 +43,7 @@ image_t prefilter_picture(prefilter_t *prefilter, const warp_kernels_t *kernels,
     const int32_t channels = (int32_t)picture->format, count = picture->width * channels;
     const image_t filtered = {prefilter->pixels, picture->width, picture->height, count, picture->format};
     for (int32_t y = 0; y < picture->height; y++) {
-        const int16_t *sums = sums_of_row(prefilter, kernels, picture, y);
+        const int16_t *sums = prefilter_sums(&prefilter->sums, kernels, &prefilter->fir, picture, y);
         kernels->prefilter_row(image_row(&filtered, y), sums, &prefilter->fir, count, channels);
     }
     return filtered;

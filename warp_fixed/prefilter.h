@@ -9,12 +9,25 @@
 #include "warp_fixed/image.h"
 #include "warp_fixed/kernels.h"
 
+/** First pass of one row, with mirrored ends. */
+typedef struct {
+    int16_t v[(IMAGE_MAX_WIDTH + 2 * PREFILTER_MAX_RADIUS) * 4];
+} prefilter_sums_t;
+
+/**
+ * Run the first pass along row y, and continue it by half-sample mirroring.
+ *
+ * @return The row's first sum within `sums`; radius pixels before and after the row are there too.
+ */
+const int16_t *prefilter_sums(prefilter_sums_t *sums, const warp_kernels_t *kernels, const fir_t *fir,
+                              const image_t *picture, int32_t y);
+
 /** The filter of the last k, and the filtered picture. */
 typedef struct {
     warp_filter_t filter; /**< that fir is; WARP_FILTER_NONE at first */
     int32_t k_q16;        /**< that fir was designed for */
     fir_t fir;
-    int16_t sums[(IMAGE_MAX_WIDTH + 2 * PREFILTER_MAX_RADIUS) * 4]; /**< first pass of one row, with mirrored ends */
+    prefilter_sums_t sums;
     uint8_t pixels[IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT * 4];
 } prefilter_t;
 

@@ -4,25 +4,9 @@
 
 #include "warp_fixed/fixed.h"
 #include "warp_fixed/kernels_scalar.h"
+#include "warp_fixed/window_place.h"
 
 enum { PATCH_STRIDE = 4 * WINDOW_MAX_TAPS };
-
-/* Where a window begins along one axis, and its rows of weights. */
-typedef struct {
-    int32_t begin;
-    const int16_t *first, *second;
-} place_t;
-
-/* size is of level 0, in pixels; the point is clamped to it, rounded to a phase of its level. */
-static place_t place_of(const window_axis_t *axis, int32_t point_q18, int32_t size, int level)
-{
-    const int32_t clamped = clamp_i32(point_q18, 0, size << GRID_FRACTION_BITS) >> (3 * level);
-    const int32_t rounding = GRID_FRACTION_BITS - PHASE_BITS;
-    const int32_t from_centre = ((clamped + (1 << (rounding - 1))) >> rounding) - PHASES / 2;
-    const int32_t phase = from_centre & (PHASES - 1);
-    const int32_t row = phase * axis->taps;
-    return (place_t){(from_centre >> PHASE_BITS) + axis->start[phase], axis->first + row, axis->second + row};
-}
 
 /* The texels of a window that reaches beyond the picture, gathered with mirroring into patch. */
 static void gather_mirrored(uint8_t *patch, const window_t *window, int32_t x, int32_t y)
@@ -42,8 +26,8 @@ static inline void weigh(uint8_t *out, const window_t *window, int32_t x_q18, in
 {
     const image_t *picture = &window->picture;
     const int32_t nx = window->x.taps, ny = window->y.taps;
-    const place_t x = place_of(&window->x, x_q18, window->width, window->level_x);
-    const place_t y = place_of(&window->y, y_q18, window->height, window->level_y);
+    const window_place_t x = window_place(&window->x, x_q18, window->width, window->level_x);
+    const window_place_t y = window_place(&window->y, y_q18, window->height, window->level_y);
     uint8_t patch[WINDOW_MAX_TAPS * PATCH_STRIDE];
     const uint8_t *texels = patch;
     ptrdiff_t stride = PATCH_STRIDE;

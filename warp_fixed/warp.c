@@ -26,9 +26,8 @@ void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t 
     for (int channel = 0; channel < 3; channel++)
         warp->border[channel] = border[2 - channel];
     warp->border[3] = 0;
-    window_weights_init(&warp->weights, method.resampler);
+    window_weights_init(warp_splines(method.resampler) ? &warp->spline_weights : &warp->byte_weights, method.resampler);
     prefilter_init(&warp->prefilter);
-    levels_begin(&warp->levels);
 }
 
 static void fill_border(const warp_t *warp, const image_t *panel, int32_t j, int32_t begin, int32_t end)
@@ -55,15 +54,21 @@ static void choose_blocks(frame_t *frame, int32_t j)
 static window_t window_of(const frame_t *frame, const warp_block_t *block)
 {
     warp_t *warp = frame->warp;
-    return (window_t){
-        .x = window_axis(&warp->weights, block->x.side),
-        .y = window_axis(&warp->weights, block->y.side),
-        .picture = levels_picture(&warp->levels, &frame->picture, block->x.level, block->y.level),
+    const bool splines = warp_splines(warp->method.resampler);
+    const window_weights_t *weights = splines ? &warp->spline_weights : &warp->byte_weights;
+    const int level_x = block->x.level, level_y = block->y.level;
+    window_t window = {
+        .x = window_axis(weights, block->x.side),
+        .y = window_axis(weights, block->y.side),
+        .picture = levels_picture(&warp->levels, &frame->picture, level_x, level_y),
         .width = frame->picture.width,
         .height = frame->picture.height,
-        .level_x = block->x.level,
-        .level_y = block->y.level,
+        .level_x = level_x,
+        .level_y = level_y,
     };
+    if (splines)
+        window.coefficients = spline_coefficients(&warp->spline, frame->kernels, &window.picture, level_x, level_y);
+    return window;
 }
 
 /* Resample pixels [begin, end) of row j, whose points are x and y; the pieces of each footprint block in turn. */
@@ -79,6 +84,8 @@ static void resample(const frame_t *frame, int32_t j, int32_t begin, int32_t end
         return;
     }
     resample_window_fn *weigh = gray ? kernels->window_gray : kernels->window_xrgb;
+    if (warp_splines(frame->warp->method.resampler))
+        weigh = gray ? kernels->spline_gray : kernels->spline_xrgb;
     for (int32_t i = begin; i < end;) {
         const int32_t block = i >> frame->block_log2, block_end = (block + 1) << frame->block_log2;
         const int32_t piece_end = block_end < end ? block_end : end;
@@ -120,12 +127,13 @@ bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *repo
     const footprint_step_t step = footprint_step(homography);
     grid_from_homography(&warp->grid, homography);
     levels_begin(&warp->levels);
+    spline_begin(&warp->spline);
     frame_t frame = {.warp = warp, .kernels = kernels, .panel = panel};
     frame.picture = prefilter_picture(&warp->prefilter, kernels, picture, warp->method.filter,
                                       warp->step_all ? step.all_q16 : step.in_q16);
 
     /* Plain interpolation has no sides: one block, of side 0, serves every row. */
-    const bool averages = warp->method.resampler == WARP_AREA || warp->method.resampler == WARP_MEAN_CUBIC;
+    const bool averages = warp_averages(warp->method.resampler);
     frame.block_log2 = WHOLE_ROW_LOG2;
     warp->block[0] = (warp_block_t){{0, 0}, {0, 0}};
     int32_t lit = 0;

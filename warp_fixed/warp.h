@@ -14,6 +14,7 @@
 #include "warp_fixed/levels.h"
 #include "warp_fixed/method.h"
 #include "warp_fixed/prefilter.h"
+#include "warp_fixed/spline.h"
 #include "warp_fixed/window_weights.h"
 
 /** Which weights and which level of the picture serve a block, along both axes. */
@@ -21,17 +22,18 @@ typedef struct {
     window_side_t x, y;
 } warp_block_t;
 
-/** Everything a board needs between and within frames; about 48 MB, most of it never touched by small pictures. */
+/** Everything a board needs between and within frames; about 144 MB, most of it never touched by small pictures. */
 typedef struct {
     warp_method_t method;
     bool step_all;     /**< take k over the whole wall, not only over what lands in the picture */
     uint8_t border[4]; /**< B, G, R, X of unlit pixels; border[0] alone for gray */
-    window_weights_t weights;
+    window_weights_t byte_weights, spline_weights; /**< the one that the method needs */
     grid_t grid;
     footprint_blocks_t blocks;
     warp_block_t block[IMAGE_MAX_WIDTH];
     prefilter_t prefilter;
     levels_t levels;
+    spline_t spline;
 } warp_t;
 
 /** What a frame turned out to be, for telemetry and evaluation. */

@@ -2,7 +2,6 @@
 // One table of weights for every interpolating and averaging kernel, by side of the footprint and phase.
 #include "warp_fixed/window_weights.h"
 
-#include <stdbool.h>
 #include <stddef.h>
 
 /*
@@ -11,7 +10,8 @@
  */
 typedef struct {
     int32_t half_width;             /* of the kernel's support, 1/128 px */
-    bool positive;                  /* no weight is negative */
+    int32_t first_sum, second_sum;  /* of the weights */
+    int32_t long_first_sum;         /* of more than WINDOW_SHORT_TAPS */
     int64_t (*value)(int64_t t);    /* kernel */
     int64_t (*integral)(int64_t t); /* running integral from 0, or NULL when it is only interpolated with */
 } kernel_t;
@@ -54,17 +54,44 @@ static int64_t keys_integral(int64_t t)
     return t < 0 ? -size : size;
 }
 
+/* The cubic B-spline times 6 * 128^3: 3 t^3 - 6 t^2 + 4 up to 1, (2 - t)^3 up to 2. */
+static int64_t spline_value(int64_t t)
+{
+    const int64_t a = clamp_i64(t < 0 ? -t : t, 0, 2 * ONE), rest = 2 * ONE - a;
+    return a < ONE ? (3 * a - 6 * ONE) * a * a + 4 * ONE * ONE * ONE : rest * rest * rest;
+}
+
+/* Its integral times 24 * 128^4: 3 t^4 - 8 t^3 + 16 t up to 1, 12 - (2 - t)^4 up to 2. */
+static int64_t spline_integral(int64_t t)
+{
+    const int64_t a = clamp_i64(t < 0 ? -t : t, 0, 2 * ONE), rest = 2 * ONE - a;
+    const int64_t cube = (int64_t)ONE * ONE * ONE;
+    const int64_t size =
+        a < ONE ? ((3 * a - 8 * ONE) * a * a + 16 * cube) * a : 12 * cube * ONE - rest * rest * rest * rest;
+    return t < 0 ? -size : size;
+}
+
 static const kernel_t *kernel_of(warp_resampler_t resampler)
 {
-    static const kernel_t tent = {ONE, false, tent_value, NULL};
-    static const kernel_t keys = {2 * ONE, false, keys_value, keys_integral};
-    static const kernel_t box = {ONE / 2, true, box_value, box_integral};
+    enum {
+        LONG = FIRST_SUM << LONG_FIRST_SHIFT,
+        LONG_POSITIVE = FIRST_SUM_POSITIVE << LONG_FIRST_SHIFT,
+        SPLINE = 1 << SPLINE_SUM_LOG2
+    };
+    static const kernel_t tent = {ONE, FIRST_SUM, SECOND_SUM, LONG, tent_value, NULL};
+    static const kernel_t keys = {2 * ONE, FIRST_SUM, SECOND_SUM, LONG, keys_value, keys_integral};
+    static const kernel_t spline = {2 * ONE, SPLINE, SPLINE, SPLINE, spline_value, spline_integral};
+    static const kernel_t box = {ONE / 2,       FIRST_SUM_POSITIVE, SECOND_SUM_POSITIVE,
+                                 LONG_POSITIVE, box_value,          box_integral};
     switch (resampler) {
     case WARP_LINEAR:
         return &tent;
     case WARP_CUBIC:
     case WARP_MEAN_CUBIC:
         return &keys;
+    case WARP_SPLINE:
+    case WARP_MEAN_SPLINE:
+        return &spline;
     case WARP_AREA:
         return &box;
     case WARP_NEAREST:
@@ -114,7 +141,6 @@ static void fill_row(window_weights_t *weights, const kernel_t *kernel, int32_t 
 {
     const int32_t s = side_q6(side), taps = weights->taps[side];
     const int32_t start = (int32_t)floor_shift(PHASE * phase - kernel->half_width - s, 7) + 1;
-    const int32_t first_sum = kernel->positive ? FIRST_SUM_POSITIVE : FIRST_SUM;
     const size_t at = weights->at[side] + (size_t)phase * (size_t)taps;
     int64_t exact[WINDOW_MAX_TAPS];
     for (int32_t i = 0; i < taps; i++) {
@@ -123,8 +149,8 @@ static void fill_row(window_weights_t *weights, const kernel_t *kernel, int32_t 
     }
     weights->start[side][phase] = (int8_t)start;
     round_to_sum(&weights->first[at], exact, taps,
-                 taps > WINDOW_SHORT_TAPS ? first_sum << LONG_FIRST_SHIFT : first_sum);
-    round_to_sum(&weights->second[at], exact, taps, kernel->positive ? SECOND_SUM_POSITIVE : SECOND_SUM);
+                 taps > WINDOW_SHORT_TAPS ? kernel->long_first_sum : kernel->first_sum);
+    round_to_sum(&weights->second[at], exact, taps, kernel->second_sum);
 }
 
 void window_weights_init(window_weights_t *weights, warp_resampler_t resampler)
@@ -132,7 +158,8 @@ void window_weights_init(window_weights_t *weights, warp_resampler_t resampler)
     const kernel_t *kernel = kernel_of(resampler);
     if (kernel == NULL)
         return;
-    const int32_t sides = resampler == WARP_AREA || resampler == WARP_MEAN_CUBIC ? WINDOW_SIDES : 1;
+    weights->spline = warp_splines(resampler);
+    const int32_t sides = warp_averages(resampler) ? WINDOW_SIDES : 1;
     uint32_t at = 0;
     for (int32_t side = 0; side < sides; side++) {
         const int32_t support = 2 * kernel->half_width + 2 * side_q6(side); /* 1/128 px */
@@ -157,7 +184,7 @@ static uint16_t nearest_side(uint32_t side_q16)
 
 window_side_t window_side(warp_resampler_t resampler, uint32_t width_q16)
 {
-    if (resampler != WARP_AREA && resampler != WARP_MEAN_CUBIC)
+    if (!warp_averages(resampler))
         return (window_side_t){0, 0};
     const uint32_t largest = WINDOW_MAX_SIDE << 16;
     uint8_t level = 0;
@@ -165,7 +192,7 @@ window_side_t window_side(warp_resampler_t resampler, uint32_t width_q16)
         width_q16 >>= 3;
         level++;
     }
-    if (resampler == WARP_MEAN_CUBIC) {
+    if (resampler != WARP_AREA) {
         const uint64_t square = (uint64_t)width_q16 * width_q16, one = (uint64_t)1 << 32;
         width_q16 = square > one ? floor_sqrt(square - one) : 0;
     }
@@ -176,6 +203,6 @@ window_axis_t window_axis(const window_weights_t *weights, uint16_t side)
 {
     const uint32_t at = weights->at[side];
     const int32_t taps = weights->taps[side];
-    return (window_axis_t){&weights->first[at], &weights->second[at], weights->start[side], taps,
-                           taps > WINDOW_SHORT_TAPS ? LONG_FIRST_SHIFT : 0};
+    const int32_t first_shift = weights->spline ? SPLINE_SUM_LOG2 : taps > WINDOW_SHORT_TAPS ? LONG_FIRST_SHIFT : 0;
+    return (window_axis_t){&weights->first[at], &weights->second[at], weights->start[side], taps, first_shift};
 }

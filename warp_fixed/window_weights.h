@@ -8,6 +8,7 @@
 #ifndef WARP_FIXED_WINDOW_WEIGHTS_H
 #define WARP_FIXED_WINDOW_WEIGHTS_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "warp_fixed/fixed.h"
@@ -23,14 +24,15 @@ enum {
 
 /** Weights along one axis for one side: row `phase` of each table has `taps` entries. */
 typedef struct {
-    const int16_t *first;  /**< sum FIRST_SUM or FIRST_SUM_POSITIVE, or that << LONG_FIRST_SHIFT */
-    const int16_t *second; /**< sum SECOND_SUM or SECOND_SUM_POSITIVE */
+    const int16_t *first;  /**< sum FIRST_SUM, FIRST_SUM_POSITIVE, or that << LONG_FIRST_SHIFT; splines as second */
+    const int16_t *second; /**< sum SECOND_SUM, SECOND_SUM_POSITIVE or for splines 1 << SPLINE_SUM_LOG2 */
     const int8_t *start;   /**< first texel of the window, from the texel whose centre is at or before the point */
     int32_t taps;          /**< 1 to WINDOW_MAX_TAPS */
-    int32_t first_shift;   /**< 0, or LONG_FIRST_SHIFT when taps > WINDOW_SHORT_TAPS */
+    int32_t first_shift;   /**< 0, or LONG_FIRST_SHIFT when taps > WINDOW_SHORT_TAPS; splines: SPLINE_SUM_LOG2 */
 } window_axis_t;
 
 typedef struct {
+    bool spline;
     uint32_t at[WINDOW_SIDES]; /**< of row 0 in the pools */
     uint8_t taps[WINDOW_SIDES];
     int8_t start[WINDOW_SIDES][PHASES];
@@ -48,8 +50,8 @@ typedef struct {
 void window_weights_init(window_weights_t *weights, warp_resampler_t resampler);
 
 /**
- * Choose by the footprint's width (or height): area takes it as the side; mean+cubic takes sqrt(w^2 - 1), since the
- * picture's pixels are means over a unit box themselves; plain kernels take 0.
+ * Choose by the footprint's width (or height): area takes it as the side; mean+cubic and mean+spline take
+ * sqrt(w^2 - 1), since the picture's pixels are means over a unit box themselves; plain kernels take 0.
  */
 window_side_t window_side(warp_resampler_t resampler, uint32_t width_q16);
 

@@ -9,15 +9,33 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "tests/support/rng.h"
 #include "warp_fixed/kernels_scalar.h"
+#include "warp_fixed/spline.h"
 
 enum { WIDTH = 160, HEIGHT = 150 };
 
+static const struct {
+    warp_resampler_t resampler;
+    int32_t sides;
+    int levels; /* that the loop may be away from its float definition */
+} loops[] = {
+    {WARP_LINEAR, 1, 1},
+    {WARP_CUBIC, 1, 4},
+    {WARP_SPLINE, 1, 1},
+    {WARP_AREA, WINDOW_SIDES, 2},
+    {WARP_MEAN_CUBIC, WINDOW_SIDES, 4},
+    {WARP_MEAN_SPLINE, WINDOW_SIDES, 1},
+};
+enum { LOOPS = sizeof loops / sizeof *loops };
+
 static window_weights_t weights;
 static uint8_t gray[WIDTH * HEIGHT], color[WIDTH * HEIGHT * 4];
+static double surface[WIDTH * HEIGHT]; /* what the kernel weighs: gray, or its spline coefficients */
+static spline_t spline;
 
 /* Running integral of the kernel from 0 to t. */
 static double integral(warp_resampler_t resampler, double t)
@@ -25,6 +43,10 @@ static double integral(warp_resampler_t resampler, double t)
     if (resampler == WARP_AREA)
         return fmax(-0.5, fmin(0.5, t));
     const double a = fmin(fabs(t), 2);
+    if (warp_splines(resampler)) {
+        const double part = a < 1 ? a * a * a * a / 8 - a * a * a / 3 + 2 * a / 3 : 0.5 - pow(2 - a, 4) / 24;
+        return t < 0 ? -part : part;
+    }
     const double size = a < 1 ? 0.375 * a * a * a * a - 2.5 / 3 * a * a * a + a
                               : -0.125 * a * a * a * a + 2.5 / 3 * a * a * a - 2 * a * a + 2 * a - 1.0 / 6;
     return t < 0 ? -size : size;
@@ -37,6 +59,8 @@ static double kernel(warp_resampler_t resampler, double t)
         return t >= -0.5 && t < 0.5;
     if (resampler == WARP_LINEAR)
         return fmax(0, 1 - a);
+    if (warp_splines(resampler))
+        return a < 1 ? a * a * a / 2 - a * a + 2.0 / 3 : a < 2 ? pow(2 - a, 3) / 6 : 0;
     return a < 1 ? 1.5 * a * a * a - 2.5 * a * a + 1 : a < 2 ? -0.5 * a * a * a + 2.5 * a * a - 4 * a + 2 : 0;
 }
 
@@ -67,7 +91,7 @@ static double float_definition(warp_resampler_t resampler, const double point[2]
         double row = 0;
         for (int i = -margin; i < WIDTH + margin; i++)
             if (wx[i + margin] != 0)
-                row += wx[i + margin] * gray[mirror_index(j, HEIGHT) * WIDTH + mirror_index(i, WIDTH)];
+                row += wx[i + margin] * surface[mirror_index(j, HEIGHT) * WIDTH + mirror_index(i, WIDTH)];
         sum += wy[j + margin] * row;
     }
     return fmax(0, fmin(255, sum));
@@ -89,14 +113,49 @@ static void paint(int kind, rng_t *rng)
         memset(color + 4 * k, gray[k], 4);
 }
 
+/* One axis of the interpolating spline's coefficients, from its closed form; count values, `step` apart. */
+static void to_coefficients(double *values, int count, int step)
+{
+    double in[WIDTH > HEIGHT ? WIDTH : HEIGHT];
+    for (int n = 0; n < count; n++)
+        in[n] = values[n * step];
+    for (int n = 0; n < count; n++) {
+        double sum = 0;
+        for (int m = -40; m <= 40; m++) /* 0.27^40 is nothing */
+            sum += sqrt(3) * pow(2 - sqrt(3), abs(m)) * (m % 2 == 0 ? 1 : -1) * in[mirror_index(n + m, count)];
+        values[n * step] = sum;
+    }
+}
+
+static void make_surface(warp_resampler_t resampler)
+{
+    for (int k = 0; k < WIDTH * HEIGHT; k++)
+        surface[k] = gray[k];
+    for (int y = 0; warp_splines(resampler) && y < HEIGHT; y++)
+        to_coefficients(surface + y * WIDTH, WIDTH, 1);
+    for (int x = 0; warp_splines(resampler) && x < WIDTH; x++)
+        to_coefficients(surface + x, HEIGHT, WIDTH);
+}
+
+/* After a change of the pixels, spline_begin() must have been called. */
 static window_t window_of(int32_t side_x, int32_t side_y, uint8_t *pixels, image_format_t format)
 {
     const image_t picture = {pixels, WIDTH, HEIGHT, WIDTH * (int32_t)format, format};
-    return (window_t){.x = window_axis(&weights, (uint16_t)side_x),
-                      .y = window_axis(&weights, (uint16_t)side_y),
-                      .picture = picture,
-                      .width = WIDTH,
-                      .height = HEIGHT};
+    window_t window = {.x = window_axis(&weights, (uint16_t)side_x),
+                       .y = window_axis(&weights, (uint16_t)side_y),
+                       .picture = picture,
+                       .width = WIDTH,
+                       .height = HEIGHT};
+    if (weights.spline)
+        window.coefficients = spline_coefficients(&spline, &warp_kernels_scalar, &picture, 0, 0);
+    return window;
+}
+
+static uint8_t pixel_at(const window_t *window, int32_t x_q18, int32_t y_q18)
+{
+    uint8_t pixel;
+    (weights.spline ? resample_spline_gray_scalar : resample_window_gray_scalar)(&pixel, window, &x_q18, &y_q18, 1);
+    return pixel;
 }
 
 /* Every method stays within `levels` of its float definition at the loop's own positions and sides. */
@@ -106,16 +165,18 @@ static void compare(warp_resampler_t resampler, int32_t sides, int levels)
     window_weights_init(&weights, resampler);
     for (uint64_t seed = 1; seed <= 12000; seed++) {
         rng_t rng = {seed};
-        if (seed % 2000 == 1)
+        if (seed % 2000 == 1) {
             paint((int)(seed / 2000), &rng);
+            make_surface(resampler);
+            spline_begin(&spline);
+        }
         const int32_t side[2] = {(int32_t)rng_int(&rng, 0, sides - 1), (int32_t)rng_int(&rng, 0, sides - 1)};
         const int32_t x = (int32_t)rng_int(&rng, 0, WIDTH * PHASES), y = (int32_t)rng_int(&rng, 0, HEIGHT * PHASES);
         const double point[2] = {(double)x / PHASES, (double)y / PHASES};
         const double sides_px[2] = {side_px(side[0]), side_px(side[1])};
         const window_t window = window_of(side[0], side[1], gray, IMAGE_GRAY8);
         const int32_t x_q18 = x << (18 - PHASE_BITS), y_q18 = y << (18 - PHASE_BITS);
-        uint8_t got;
-        resample_window_gray_scalar(&got, &window, &x_q18, &y_q18, 1);
+        const uint8_t got = pixel_at(&window, x_q18, y_q18);
         const int expected = (int)floor(float_definition(resampler, point, sides_px) + 0.5);
         const int error = got > expected ? got - expected : expected - got;
         worst = error > worst ? error : worst;
@@ -129,21 +190,19 @@ static void compare(warp_resampler_t resampler, int32_t sides, int levels)
 static void methods_keep_their_definition(void **state)
 {
     (void)state;
-    compare(WARP_LINEAR, 1, 1);
-    compare(WARP_CUBIC, 1, 4);
-    compare(WARP_AREA, WINDOW_SIDES, 2);
-    compare(WARP_MEAN_CUBIC, WINDOW_SIDES, 4);
+    for (int r = 0; r < LOOPS; r++)
+        compare(loops[r].resampler, loops[r].sides, loops[r].levels);
 }
 
 static void weights_sum_exactly_and_fit(void **state)
 {
     (void)state;
-    const warp_resampler_t all[4] = {WARP_LINEAR, WARP_CUBIC, WARP_AREA, WARP_MEAN_CUBIC};
-    for (int r = 0; r < 4; r++) {
-        const bool positive = all[r] == WARP_AREA;
-        const int32_t sides = all[r] == WARP_AREA || all[r] == WARP_MEAN_CUBIC ? WINDOW_SIDES : 1;
-        window_weights_init(&weights, all[r]);
-        for (int32_t side = 0; side < sides; side++) {
+    for (int r = 0; r < LOOPS; r++) {
+        const bool is_spline = warp_splines(loops[r].resampler), positive = loops[r].resampler == WARP_AREA;
+        const int32_t first_sum = is_spline ? 1 : positive ? FIRST_SUM_POSITIVE : FIRST_SUM;
+        const int32_t second_sum = is_spline ? 1 << SPLINE_SUM_LOG2 : positive ? SECOND_SUM_POSITIVE : SECOND_SUM;
+        window_weights_init(&weights, loops[r].resampler);
+        for (int32_t side = 0; side < loops[r].sides; side++) {
             const window_axis_t axis = window_axis(&weights, (uint16_t)side);
             assert_in_range(axis.taps, 1, WINDOW_MAX_TAPS);
             assert_true(weights.at[side] + (uint32_t)axis.taps * PHASES <= WINDOW_POOL);
@@ -155,10 +214,10 @@ static void weights_sum_exactly_and_fit(void **state)
                     second += axis.second[phase * axis.taps + t];
                     if (axis.first_shift == 0) /* 8-bit: unsigned, or negated and signed */
                         assert_true(positive ? w >= 0 && w <= 255 : -w >= -128 && -w <= 127);
+                    assert_true(w >= 0 || !(is_spline || positive));
                 }
-                const int32_t sum = positive ? FIRST_SUM_POSITIVE : FIRST_SUM;
-                assert_int_equal(first, sum << axis.first_shift);
-                assert_int_equal(second, positive ? SECOND_SUM_POSITIVE : SECOND_SUM);
+                assert_int_equal(first, first_sum << axis.first_shift);
+                assert_int_equal(second, second_sum);
             }
         }
     }
@@ -168,53 +227,59 @@ static void weights_sum_exactly_and_fit(void **state)
 static void constants_and_identity_are_exact(void **state)
 {
     (void)state;
-    const warp_resampler_t all[4] = {WARP_LINEAR, WARP_CUBIC, WARP_AREA, WARP_MEAN_CUBIC};
     rng_t rng = {7};
-    for (int r = 0; r < 4; r++) {
-        window_weights_init(&weights, all[r]);
+    for (int r = 0; r < LOOPS; r++) {
+        window_weights_init(&weights, loops[r].resampler);
         for (int level = 0; level < 256; level++) {
             memset(gray, level, sizeof(gray));
-            const int32_t sides = all[r] == WARP_AREA || all[r] == WARP_MEAN_CUBIC ? WINDOW_SIDES : 1;
+            spline_begin(&spline);
             for (int n = 0; n < 20; n++) {
-                const window_t window = window_of((int32_t)rng_int(&rng, 0, sides - 1),
-                                                  (int32_t)rng_int(&rng, 0, sides - 1), gray, IMAGE_GRAY8);
+                const int32_t side_x = (int32_t)rng_int(&rng, 0, loops[r].sides - 1);
+                const int32_t side_y = (int32_t)rng_int(&rng, 0, loops[r].sides - 1);
+                const window_t window = window_of(side_x, side_y, gray, IMAGE_GRAY8);
                 const int32_t x = (int32_t)rng_int(&rng, -9, WIDTH << 18), y = (int32_t)rng_int(&rng, 0, HEIGHT << 18);
-                uint8_t got;
-                resample_window_gray_scalar(&got, &window, &x, &y, 1);
-                assert_int_equal(got, level);
+                assert_int_equal(pixel_at(&window, x, y), level);
             }
         }
         paint(5, &rng);
-        const uint16_t one = all[r] == WARP_AREA ? window_side(WARP_AREA, 1 << 16).side : 0;
+        spline_begin(&spline);
+        const uint16_t one = window_side(loops[r].resampler, 1 << 16).side;
         const window_t window = window_of(one, one, gray, IMAGE_GRAY8);
-        for (int32_t k = 0; k < WIDTH * HEIGHT; k++) {
-            const int32_t x = (k % WIDTH << 18) + (1 << 17), y = (k / WIDTH << 18) + (1 << 17);
-            uint8_t got;
-            resample_window_gray_scalar(&got, &window, &x, &y, 1);
-            assert_int_equal(got, gray[k]);
-        }
+        for (int32_t k = 0; k < WIDTH * HEIGHT; k++)
+            assert_int_equal(pixel_at(&window, (k % WIDTH << 18) + (1 << 17), (k / WIDTH << 18) + (1 << 17)), gray[k]);
     }
 }
 
-static void color_is_gray_four_times(void **state)
+static void color_is_gray_four_times(warp_resampler_t resampler, resample_window_fn *loop)
 {
-    (void)state;
+    static spline_t color_spline;
     rng_t rng = {11};
     paint(5, &rng);
-    window_weights_init(&weights, WARP_MEAN_CUBIC);
+    window_weights_init(&weights, resampler);
+    spline_begin(&spline);
+    spline_begin(&color_spline);
+    const image_t picture = {color, WIDTH, HEIGHT, 4 * WIDTH, IMAGE_XRGB8888};
     for (int n = 0; n < 3000; n++) {
         const int32_t side_x = (int32_t)rng_int(&rng, 0, WINDOW_SIDES - 1);
         const int32_t side_y = (int32_t)rng_int(&rng, 0, WINDOW_SIDES - 1);
         const window_t in_gray = window_of(side_x, side_y, gray, IMAGE_GRAY8);
-        const window_t in_color = window_of(side_x, side_y, color, IMAGE_XRGB8888);
+        window_t in_color = in_gray;
+        in_color.picture = picture;
+        in_color.coefficients = spline_coefficients(&color_spline, &warp_kernels_scalar, &picture, 0, 0);
         const int32_t x = (int32_t)rng_int(&rng, -(1 << 20), (WIDTH << 18) + (1 << 20));
         const int32_t y = (int32_t)rng_int(&rng, -(1 << 20), (HEIGHT << 18) + (1 << 20));
-        uint8_t one, four[4];
-        resample_window_gray_scalar(&one, &in_gray, &x, &y, 1);
-        resample_window_xrgb_scalar(four, &in_color, &x, &y, 1);
+        uint8_t four[4];
+        loop(four, &in_color, &x, &y, 1);
         for (int c = 0; c < 4; c++)
-            assert_int_equal(four[c], one);
+            assert_int_equal(four[c], pixel_at(&in_gray, x, y));
     }
+}
+
+static void color_is_gray(void **state)
+{
+    (void)state;
+    color_is_gray_four_times(WARP_MEAN_CUBIC, resample_window_xrgb_scalar);
+    color_is_gray_four_times(WARP_MEAN_SPLINE, resample_spline_xrgb_scalar);
 }
 
 /* The side chosen for a footprint is the nearest of the table; mean+cubic takes sqrt(w^2 - 1); large ones use levels.
@@ -235,7 +300,11 @@ static void sides_follow_footprints(void **state)
             fabs(side_px(mean.side) - cubic) > fmax(cubic, 0.5) / 60)
             fail_msg("seed %lu: width %f, level %d: sides %f and %f", (unsigned long)seed, width, area.level,
                      side_px(area.side), side_px(mean.side));
+        const window_side_t mean_spline = window_side(WARP_MEAN_SPLINE, (uint32_t)lround(width * 65536));
+        assert_int_equal(mean_spline.side, mean.side);
+        assert_int_equal(mean_spline.level, mean.level);
         assert_int_equal(window_side(WARP_CUBIC, (uint32_t)lround(width * 65536)).side, 0);
+        assert_int_equal(window_side(WARP_SPLINE, (uint32_t)lround(width * 65536)).side, 0);
     }
     assert_int_equal(window_side(WARP_AREA, UINT32_MAX).side, WINDOW_SIDES - 1);
     assert_int_equal(window_side(WARP_AREA, 0).side, 0);
@@ -245,7 +314,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(weights_sum_exactly_and_fit),      cmocka_unit_test(methods_keep_their_definition),
-        cmocka_unit_test(constants_and_identity_are_exact), cmocka_unit_test(color_is_gray_four_times),
+        cmocka_unit_test(constants_and_identity_are_exact), cmocka_unit_test(color_is_gray),
         cmocka_unit_test(sides_follow_footprints),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -153,7 +153,9 @@ static void huge_footprints_see_the_mean(void **state)
     for (int32_t y = 0; y < 2000; y++)
         for (int32_t x = 0; x < 3000; x++)
             image_row(&picture.image, y)[x] = (uint8_t)(rng_int(&rng, 0, 255) / 2 + x / 750 * 20);
-    for (int m = WARP_METHODS - 2; m < WARP_METHODS; m++) {
+    for (int m = 0; m < WARP_METHODS; m++) {
+        if (!warp_averages(warp_methods[m].resampler))
+            continue;
         warp_init(&warp, warp_methods[m], false, border);
         assert_true(warp_frame(&warp, &warp_kernels_scalar, NULL, &h, &panel.image, &picture.image));
         for (int32_t i = 0; i < 12; i++)
