@@ -83,13 +83,13 @@ static real_t cosine(real_t x)
     return sum;
 }
 
-/* I0(x), from x^2: the sum of (x^2 / 4)^m / (m!)^2. */
-static real_t bessel_i0(real_t square)
+/* I0(x), from x^2: the sum of (x^2 / 4)^m / (m!)^2. per_square[m - 1] = 1 / m^2, for a division costs ten products. */
+static real_t bessel_i0(real_t square, const real_t per_square[SERIES_TERMS])
 {
     const real_t quarter = real_scale(square, -2);
     real_t term = real_from_int(1, 0), sum = term;
     for (int m = 1; m <= SERIES_TERMS; m++) {
-        term = real_div(real_mul(term, quarter), real_from_int((int64_t)m * m, 0));
+        term = real_mul(real_mul(term, quarter), per_square[m - 1]);
         sum = real_add(sum, term);
     }
     return sum;
@@ -104,12 +104,16 @@ static int32_t kaiser_q30(int64_t *exact_q30, int32_t k_q16)
     const int32_t half_length = (int32_t)(((int64_t)6 * k_q16 + 65535) >> 16);
     const real_t one = real_from_int(1, 0), angle = real_div(pi(), real_from_int(k_q16, -16));
     const real_t cos_a = cosine(angle), beta_square = real_from_int(25, 0);
-    const real_t over_i0 = real_div(one, bessel_i0(beta_square));
+    real_t per_square[SERIES_TERMS];
+    for (int m = 1; m <= SERIES_TERMS; m++)
+        per_square[m - 1] = real_div(one, real_from_int((int64_t)m * m, 0));
+    const real_t over_i0 = real_div(one, bessel_i0(beta_square, per_square));
     real_t last = real_from_int(0, 0), sine = real_sqrt(real_sub(one, real_mul(cos_a, cos_a)));
     exact_q30[0] = real_to_fixed(real_div(one, real_from_int(k_q16, -16)), WEIGHT_BITS, INT64_MAX);
     for (int32_t n = 1; n <= half_length; n++) {
         const real_t part = real_div(real_from_int(n, 0), real_from_int(half_length, 0));
-        const real_t window = real_mul(bessel_i0(real_mul(beta_square, real_sub(one, real_mul(part, part)))), over_i0);
+        const real_t argument = real_mul(beta_square, real_sub(one, real_mul(part, part)));
+        const real_t window = real_mul(bessel_i0(argument, per_square), over_i0);
         const real_t sinc = real_div(sine, real_mul(pi(), real_from_int(n, 0)));
         exact_q30[n] = real_to_fixed(real_mul(sinc, window), WEIGHT_BITS, INT64_MAX);
         const real_t next = real_sub(real_scale(real_mul(cos_a, sine), 1), last);
@@ -119,14 +123,21 @@ static int32_t kaiser_q30(int64_t *exact_q30, int32_t k_q16)
     return half_length;
 }
 
-/* |H| at f = m / 2048 in Q30. (2 k f)^8 < 2^128 is no problem for reals. */
-static int64_t butter_response_q30(int32_t m, int32_t k_q16)
+/* 1 / sqrt(1 + x^8) in Q30; with r = min(x, 1/x) it is 1 / sqrt(1 + r^8), times r^4 where x > 1. x > 0 in Q26. */
+static int64_t butter_response_q30(int64_t x_q26)
 {
-    real_t power = real_from_int((int64_t)m * k_q16, 1 - 16 - DFT_LOG2);
-    for (int squaring = 0; squaring < 3; squaring++)
-        power = real_mul(power, power);
-    const real_t one = real_from_int(1, 0);
-    return real_to_fixed(real_div(one, real_sqrt(real_add(one, power))), WEIGHT_BITS, INT64_MAX);
+    const int64_t one_q26 = 1 << 26;
+    const bool inverted = x_q26 > one_q26;
+    const uint64_t r_q32 = (uint64_t)(inverted ? (one_q26 << 32) / x_q26 : x_q26 << 6);
+    uint64_t power_q32 = r_q32;
+    uint64_t fourth_q32 = 0;
+    for (int squaring = 0; squaring < 3; squaring++) {
+        fourth_q32 = power_q32;
+        power_q32 = (uint64_t)((uint128_t)power_q32 * power_q32 >> 32);
+    }
+    const uint64_t root_q31 = floor_sqrt(((1ull << 32) + power_q32) << 30);
+    const uint64_t response_q32 = (1ull << 63) / root_q31;
+    return round_shift((int64_t)(inverted ? (uint64_t)((uint128_t)response_q32 * fourth_q32 >> 32) : response_q32), 2);
 }
 
 /* h(n) = (|H(0)| + (-1)^n |H(1/2)| + 2 sum |H(f)| cos(2 pi f n)) / 2048. */
@@ -142,7 +153,7 @@ static int32_t butter_q30(int64_t *exact_q30, int32_t k_q16)
         const real_t next = real_sub(real_scale(real_mul(cos_a, here), 1), last);
         last = here;
         here = next;
-        response_q30[j] = butter_response_q30(j, k_q16);
+        response_q30[j] = butter_response_q30((int64_t)j * k_q16); /* 2 k j / 2048 */
     }
     for (int32_t n = 0; n <= radius; n++) {
         int64_t sum_q44 = (response_q30[0] + (n % 2 == 0 ? response_q30[NYQUIST] : -response_q30[NYQUIST])) << 14;

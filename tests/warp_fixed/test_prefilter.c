@@ -209,13 +209,35 @@ static void small_k_and_constants_pass(void **state)
                      pixels);
 }
 
+/* A walking viewer changes k by a percent or so per frame: the weights follow in proportion. Kaiser's grow by
+ * whole pixels, ceil(6 k), as it is defined. */
+static void weights_follow_k(void **state)
+{
+    (void)state;
+    for (warp_filter_t filter = WARP_FILTER_GAUSS; filter <= WARP_FILTER_BUTTER; filter++) {
+        double worst = 0;
+        static fir_t before, after;
+        fir_design(&before, filter, 65537);
+        for (double k = 1.01; k < 30; k *= 1.01) {
+            fir_design(&after, filter, (int32_t)(k * 65536));
+            double change = 0;
+            for (int32_t n = 0; n <= after.radius || n <= before.radius; n++)
+                change += (n == 0 ? 1 : 2) *
+                          abs((n <= after.radius ? after.second[n] : 0) - (n <= before.radius ? before.second[n] : 0));
+            worst = fmax(worst, change / SECOND_SUM);
+            before = after;
+        }
+        printf("filter %d: weights change by %.4f at most when k grows by 1 %%\n", filter, worst);
+        assert_true(worst < (filter == WARP_FILTER_KAISER ? 0.1 : 0.03));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(taps_are_the_filters),
-        cmocka_unit_test(overshoot_saturates),
-        cmocka_unit_test(pictures_are_filtered),
-        cmocka_unit_test(small_k_and_constants_pass),
+        cmocka_unit_test(taps_are_the_filters),  cmocka_unit_test(overshoot_saturates),
+        cmocka_unit_test(pictures_are_filtered), cmocka_unit_test(small_k_and_constants_pass),
+        cmocka_unit_test(weights_follow_k),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
