@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "sim/run/run_files.h"
+#include "sim/files/folder.h"
 
 /* sim/run/page.S */
 extern const char page_template[], page_template_end[], page_script[], page_script_end[];
@@ -167,7 +167,7 @@ static const char *print_until(FILE *file, const char *from, const char *mark)
 
 bool page_write(const run_summary_t *summary, char error[FILE_ERROR_LENGTH])
 {
-    FILE *file = run_file_create(summary->folder, "index.html", error);
+    FILE *file = folder_create_file(summary->folder, "index.html", error);
     if (file == NULL)
         return false;
     const char *rest = print_until(file, page_template, "/*DATA*/");
@@ -177,5 +177,5 @@ bool page_write(const run_summary_t *summary, char error[FILE_ERROR_LENGTH])
     assert(rest != NULL);
     fwrite(page_script, 1, (size_t)(page_script_end - page_script), file);
     fwrite(rest, 1, (size_t)(page_template_end - rest), file);
-    return run_file_close(file, "index.html", error);
+    return folder_close_file(file, "index.html", error);
 }

@@ -4,31 +4,10 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <signal.h>
-#include <sys/wait.h>
 
-enum { PLOT_POINTS = 2000, COLOURS = 8, NOT_FOUND = 127 };
+#include "sim/files/gnuplot.h"
 
-static const char style[] =
-    "set encoding utf8\n"
-    "set border 3 lc rgb '#46536a'\n"
-    "set tics nomirror scale 0.5 tc rgb '#9aa8bd'\n"
-    "set grid lc rgb '#263042' lw 1 dt 1\n"
-    "set key outside top center horizontal samplen 1.6 tc rgb '#c6d0de'\n"
-    "set xlabel 'time, s' tc rgb '#9aa8bd' offset 0,0.3\n"
-    "set datafile missing 'nan'\n"
-    "array colour[8] = ['#6cb6ff','#f5a65b','#7fdca0','#c99bff','#ff8fa3','#e8d56b','#5fd3d3','#b9c3d0']\n";
-
-static void begin_plot(FILE *plot, const run_summary_t *summary, const char *name, const char *size)
-{
-    fprintf(plot, "set terminal svg size %s dynamic font 'Inter,Helvetica,Arial,sans-serif,13' background '#121926'\n",
-            size);
-    /* gnuplot reads '' within single quotes as one quote */
-    fputs("set output '", plot);
-    for (const char *c = summary->folder; *c != '\0'; c++)
-        fputs(*c == '\'' ? "''" : (char[]){*c, '\0'}, plot);
-    fprintf(plot, "/%s'\n", name);
-}
+enum { PLOT_POINTS = 2000, WIDTH = 420, HEIGHT = 270, TRUTH_WIDTH = 620, TRUTH_HEIGHT = 330 };
 
 /* A value as gnuplot reads it; what is not finite is left out of the line. */
 static void print_value(FILE *plot, double value)
@@ -90,16 +69,17 @@ static void end_plot(FILE *plot, int32_t lines)
 }
 
 /* One truth: a line for each board, its limit dashed beneath. */
-static void plot_truth(FILE *plot, const run_summary_t *summary, const char *name, int kind)
+static void plot_truth(const gnuplot_t *gnuplot, const run_summary_t *summary, const char *name, int kind)
 {
+    FILE *plot = gnuplot->pipe;
     int32_t lines = 0;
-    begin_plot(plot, summary, name, "620,330");
+    gnuplot_output(gnuplot, summary->folder, name, TRUTH_WIDTH, TRUTH_HEIGHT);
     fprintf(plot,
             "set ylabel 'PSNR, dB' tc rgb '#9aa8bd'\nset title 'Truth: %s (dashed: the limit)' tc rgb '#c6d0de'\n"
             "plot",
             kind == RUN_DB_PSNR ? "the picture itself" : "the finer original");
     for (int32_t board = 0; board < summary->record->boards; board++) {
-        const int32_t colour = board % COLOURS + 1;
+        const int32_t colour = board % GNUPLOT_COLOURS + 1;
         if (!has_value(summary, board, kind))
             continue;
         fprintf(plot, "%s $psnr%" PRId32 " using 1:%d with lines lw 1.5 dt (4,4) lc rgb colour[%" PRId32 "] notitle",
@@ -113,31 +93,34 @@ static void plot_truth(FILE *plot, const run_summary_t *summary, const char *nam
     fputs("unset title\n", plot);
 }
 
-static void plot_steps(FILE *plot, const run_summary_t *summary)
+static void plot_steps(const gnuplot_t *gnuplot, const run_summary_t *summary)
 {
+    FILE *plot = gnuplot->pipe;
     int32_t lines = 0;
-    begin_plot(plot, summary, "step.svg", "420,270");
+    gnuplot_output(gnuplot, summary->folder, "step.svg", WIDTH, HEIGHT);
     fputs("set ylabel 'step k' tc rgb '#9aa8bd'\nset yrange [0:*]\nplot", plot);
     for (int32_t board = 0; board < summary->record->boards; board++)
         if (run_record_board(summary->record, board, &summary->room->board[board].wall).drawn)
             fprintf(plot, "%s $walls%" PRId32 " using 1:2 with lines lw 2 lc rgb colour[%" PRId32 "] title '%s'",
-                    lines++ > 0 ? "," : "", board, board % COLOURS + 1, summary->room->board[board].name);
+                    lines++ > 0 ? "," : "", board, board % GNUPLOT_COLOURS + 1, summary->room->board[board].name);
     end_plot(plot, lines);
 }
 
-static void plot_times(FILE *plot, const run_summary_t *summary)
+static void plot_times(const gnuplot_t *gnuplot, const run_summary_t *summary)
 {
-    begin_plot(plot, summary, "time.svg", "420,270");
+    FILE *plot = gnuplot->pipe;
+    gnuplot_output(gnuplot, summary->folder, "time.svg", WIDTH, HEIGHT);
     fputs("set ylabel 'ms a step' tc rgb '#9aa8bd'\nset yrange [0:*]\nplot", plot);
     for (int32_t board = 0; board < summary->record->boards; board++)
         fprintf(plot, "%s $walls%" PRId32 " using 1:3 with lines lw 1.5 lc rgb colour[%" PRId32 "] title '%s'",
-                board > 0 ? "," : "", board, board % COLOURS + 1, summary->room->board[board].name);
+                board > 0 ? "," : "", board, board % GNUPLOT_COLOURS + 1, summary->room->board[board].name);
     end_plot(plot, summary->record->boards);
 }
 
-static void plot_bus(FILE *plot, const run_summary_t *summary)
+static void plot_bus(const gnuplot_t *gnuplot, const run_summary_t *summary)
 {
-    begin_plot(plot, summary, "bus.svg", "420,270");
+    FILE *plot = gnuplot->pipe;
+    gnuplot_output(gnuplot, summary->folder, "bus.svg", WIDTH, HEIGHT);
     fputs("set ylabel 'load, %' tc rgb '#9aa8bd'\nset yrange [0:*]\n"
           "plot $bus using 1:2 with steps lw 1.5 lc rgb colour[7] title 'bus load from frame to frame'\n",
           plot);
@@ -147,25 +130,18 @@ bool plots_write(const run_summary_t *summary, char error[FILE_ERROR_LENGTH])
 {
     if (summary->record->frames == 0)
         return true;
-    FILE *plot = popen("command -v gnuplot >/dev/null || exit 127; exec gnuplot", "w");
-    if (plot == NULL)
-        return file_error(error, "gnuplot", "can't be started");
-    void (*const before)(int) = signal(SIGPIPE, SIG_IGN); /* it may not be there to read */
-    fputs(style, plot);
-    fprintf(plot, "set xrange [0:%.6f]\n", seconds(summary, summary->record->frames - 1) + 0.5 / summary->rate_hz);
-    print_data(plot, summary);
+    gnuplot_t gnuplot;
+    if (!gnuplot_open(&gnuplot, error))
+        return false;
+    fprintf(gnuplot.pipe, "set xlabel 'time, s' tc rgb '#9aa8bd' offset 0,0.3\nset xrange [0:%.6f]\n",
+            seconds(summary, summary->record->frames - 1) + 0.5 / summary->rate_hz);
+    print_data(gnuplot.pipe, summary);
     if (summary->record->psnrs > 0)
-        plot_truth(plot, summary, "psnr.svg", RUN_DB_PSNR);
+        plot_truth(&gnuplot, summary, "psnr.svg", RUN_DB_PSNR);
     if (summary->record->psnrs > 0 && summary->original_name != NULL)
-        plot_truth(plot, summary, "psnr_original.svg", RUN_DB_ORIGINAL_PSNR);
-    plot_steps(plot, summary);
-    plot_times(plot, summary);
-    plot_bus(plot, summary);
-    const int status = pclose(plot);
-    signal(SIGPIPE, before);
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
-        return true;
-    if (WIFEXITED(status) && WEXITSTATUS(status) == NOT_FOUND)
-        return file_error(error, "gnuplot", "is not installed, so the plots are missing: apt-get install gnuplot-nox");
-    return file_error(error, "gnuplot", "has failed, so plots are missing: see its message above");
+        plot_truth(&gnuplot, summary, "psnr_original.svg", RUN_DB_ORIGINAL_PSNR);
+    plot_steps(&gnuplot, summary);
+    plot_times(&gnuplot, summary);
+    plot_bus(&gnuplot, summary);
+    return gnuplot_close(&gnuplot, error);
 }

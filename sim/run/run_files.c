@@ -2,74 +2,25 @@
 // The tables and the bus log of a run, written while it goes on.
 #include "sim/run/run_files.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
-#include <string.h>
-#include <sys/stat.h>
 
-enum { PATH_LENGTH = 4096, US_PER_S = 1000000 };
+#include "sim/files/folder.h"
 
-FILE *run_file_create(const char *folder, const char *name, char error[FILE_ERROR_LENGTH])
-{
-    char path[PATH_LENGTH];
-    const int length = snprintf(path, sizeof path, "%s/%s", folder, name);
-    if (length < 0 || (size_t)length >= sizeof path) {
-        file_error(error, folder, "the name is too long");
-        return NULL;
-    }
-    FILE *file = fopen(path, "wb");
-    if (file == NULL)
-        file_error(error, path, "can't be written: %s", strerror(errno));
-    return file;
-}
-
-bool run_file_close(FILE *file, const char *name, char error[FILE_ERROR_LENGTH])
-{
-    if (file == NULL)
-        return true;
-    const bool whole = !ferror(file);
-    errno = 0;
-    if (fclose(file) == 0 && whole)
-        return true;
-    return file_error(error, name, "could not be written whole: %s", errno != 0 ? strerror(errno) : "write error");
-}
-
-/* The folder, with those above it that are missing too. */
-static bool make_folder(const char *folder, char error[FILE_ERROR_LENGTH])
-{
-    char path[PATH_LENGTH];
-    const size_t length = strlen(folder);
-    if (length == 0 || length >= sizeof path)
-        return file_error(error, folder, "is no name for a folder");
-    memcpy(path, folder, length + 1);
-    for (size_t i = 1; i <= length; i++) {
-        if (path[i] != '/' && path[i] != '\0')
-            continue;
-        const char end = path[i];
-        path[i] = '\0';
-        if (mkdir(path, 0777) != 0 && errno != EEXIST)
-            return file_error(error, path, "can't make this folder: %s", strerror(errno));
-        path[i] = end;
-    }
-    struct stat found;
-    if (stat(folder, &found) != 0 || !S_ISDIR(found.st_mode))
-        return file_error(error, folder, "is not a folder");
-    return true;
-}
+enum { US_PER_S = 1000000 };
 
 bool run_files_open(run_files_t *files, const char *folder, int64_t start_us, char error[FILE_ERROR_LENGTH])
 {
-    if (!make_folder(folder, error))
+    if (!folder_make(folder, error))
         return false;
     run_files_t opened = {.folder = folder, .start_us = start_us};
-    opened.frames = run_file_create(folder, "frames.csv", error);
-    opened.timings = opened.frames == NULL ? NULL : run_file_create(folder, "timings.csv", error);
-    opened.bus = opened.timings == NULL ? NULL : run_file_create(folder, "bus.log", error);
+    opened.frames = folder_create_file(folder, "frames.csv", error);
+    opened.timings = opened.frames == NULL ? NULL : folder_create_file(folder, "timings.csv", error);
+    opened.bus = opened.timings == NULL ? NULL : folder_create_file(folder, "bus.log", error);
     if (opened.bus == NULL) {
         char second[FILE_ERROR_LENGTH];
-        (void)run_file_close(opened.timings, "timings.csv", second);
-        (void)run_file_close(opened.frames, "frames.csv", second);
+        (void)folder_close_file(opened.timings, "timings.csv", second);
+        (void)folder_close_file(opened.frames, "frames.csv", second);
         return false;
     }
     fputs("frame,time_s,board,state,pose,k_in,k_all,lit_pixels\n", opened.frames);
@@ -120,7 +71,7 @@ void run_files_add(run_files_t *files, const run_record_t *record, const room_t 
 static bool write_psnr(const run_files_t *files, const run_record_t *record, const room_t *room,
                        char error[FILE_ERROR_LENGTH])
 {
-    FILE *file = run_file_create(files->folder, "psnr.csv", error);
+    FILE *file = folder_create_file(files->folder, "psnr.csv", error);
     if (file == NULL)
         return false;
     fputs("frame,board,psnr_db,limit_db,original_psnr_db,original_limit_db,coverage\n", file);
@@ -134,13 +85,13 @@ static bool write_psnr(const run_files_t *files, const run_record_t *record, con
         }
         fprintf(file, "%.4f\n", psnr->coverage);
     }
-    return run_file_close(file, "psnr.csv", error);
+    return folder_close_file(file, "psnr.csv", error);
 }
 
 bool run_files_close(run_files_t *files, const run_record_t *record, const room_t *room, char error[FILE_ERROR_LENGTH])
 {
     bool ok = write_psnr(files, record, room, error);
-    ok = run_file_close(files->frames, "frames.csv", error) && ok;
-    ok = run_file_close(files->timings, "timings.csv", error) && ok;
-    return run_file_close(files->bus, "bus.log", error) && ok;
+    ok = folder_close_file(files->frames, "frames.csv", error) && ok;
+    ok = folder_close_file(files->timings, "timings.csv", error) && ok;
+    return folder_close_file(files->bus, "bus.log", error) && ok;
 }

@@ -39,10 +39,4 @@ void run_files_add(run_files_t *files, const run_record_t *record, const room_t 
 /** Write psnr.csv, and close all. @return false with the reason in error when anything could not be written. */
 bool run_files_close(run_files_t *files, const run_record_t *record, const room_t *room, char error[FILE_ERROR_LENGTH]);
 
-/** Open FOLDER/NAME for writing. @return NULL with the reason in error. */
-FILE *run_file_create(const char *folder, const char *name, char error[FILE_ERROR_LENGTH]);
-
-/** Close a file. @return false with the reason in error when it could not be written whole. NULL is a success. */
-bool run_file_close(FILE *file, const char *name, char error[FILE_ERROR_LENGTH]);
-
 #endif
