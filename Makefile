@@ -50,12 +50,18 @@ demo: setup-demo ## Run a room of three walls and a floor, and write the page bu
 	$(Q)$(BUILD)/wallwarp-sim run sim/demo/room.yaml --video sim/demo/studio_960x540.png --poses sim/demo/walk.csv \
 	    --original tests/images/studio_1920x1080.png --out build/demo
 
+.PHONY: study
+study: setup-demo ## Do the paper's experiments again, and write the page build/study/index.html
+	$(Q)$(MAKE) --no-print-directory programs
+	$(Q)$(BUILD)/wallwarp-eval study --out build/study
+
 $(BUILD)/obj/%.c.o: %.c
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  CC    $<")
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
 
 $(BUILD)/obj/sim/run/page.S.o: sim/run/page.html sim/run/page.js
+$(BUILD)/obj/sim/study/study_files.S.o: sim/study/study_page.html $(wildcard tests/images/*.png)
 $(BUILD)/obj/%.S.o: %.S
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  AS    $<")

@@ -5,6 +5,7 @@
 
 #include "sim/eval/eval_grid.h"
 #include "sim/eval/eval_psnr.h"
+#include "sim/eval/eval_study.h"
 #include "sim/program.h"
 
 typedef int command_fn(int argc, char **argv);
@@ -20,6 +21,7 @@ static command_t *command_named(const char *name)
     static command_t commands[] = {
         {"grid", "wallwarp-eval grid", eval_grid},
         {"psnr", "wallwarp-eval psnr", eval_psnr},
+        {"study", "wallwarp-eval study", eval_study},
     };
     for (size_t c = 0; c < sizeof commands / sizeof *commands; c++)
         if (strcmp(commands[c].name, name) == 0)
@@ -39,12 +41,12 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     case ARGP_KEY_ARG:
         chosen->command = command_named(argument);
         if (chosen->command == NULL)
-            argp_error(state, "'%s' is no command, expected grid or psnr", argument);
+            argp_error(state, "'%s' is no command, expected grid, psnr or study", argument);
         chosen->at = state->next - 1;
         state->next = state->argc; /* the rest is the command's */
         return 0;
     case ARGP_KEY_NO_ARGS:
-        argp_error(state, "a command is missing, expected grid or psnr");
+        argp_error(state, "a command is missing, expected grid, psnr or study");
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -55,10 +57,11 @@ int main(int argc, char **argv)
 {
     static const struct argp argp = {
         .parser = parse,
-        .args_doc = "grid ROOM ...\npsnr ROOM ...",
+        .args_doc = "grid ROOM ...\npsnr ROOM ...\nstudy --out DIR",
         .doc = "Measure the grid and the quality of the methods.\v"
-               "grid  where projector pixels fall in the viewer's picture\n"
-               "psnr  how well each method's wall matches the picture\n\n"
+               "grid   where projector pixels fall in the viewer's picture\n"
+               "psnr   how well each method's wall matches the picture\n"
+               "study  the paper's figures again, on one page\n\n"
                "'wallwarp-eval COMMAND --help' tells more. Exit status: 0 done, 1 failed, 2 bad usage.",
     };
     argp_err_exit_status = PROGRAM_BAD_USAGE;

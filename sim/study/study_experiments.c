@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
+// The experiments of the study, in the order of its page: one line each.
+#include "sim/study/study_experiments.h"
+
+const study_experiment_t study_experiments[] = {
+    /* name, function, seconds with --quick, seconds in full */
+    {0},
+};

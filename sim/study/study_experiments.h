@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// The experiments of the study, in the order of its page.
+#ifndef SIM_STUDY_STUDY_EXPERIMENTS_H
+#define SIM_STUDY_STUDY_EXPERIMENTS_H
+
+#include "sim/study/study_run.h"
+
+
+/** The table of them all, ended by a row without a name. */
+extern const study_experiment_t study_experiments[];
+
+#endif
