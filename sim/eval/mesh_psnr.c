@@ -2,51 +2,92 @@
 // The paper's mesh evaluation: how well what a wall shows, seen from the viewer's eye, matches the true picture.
 #include "sim/eval/mesh_psnr.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* One row of samples: (a, b, c) of sample k is at_start + (k + 1/2) step. */
+/* One wall along a row of samples: the form of a, b, c or 1 / depth at sample k is at_start + (k + 1/2) step. */
 typedef struct {
-    double at_start[3];
-    double step[3];
+    mesh_t *mesh;
+    double at_start[4];
+    double step[4];
+} wall_row_t;
+
+/* All walls along a row of samples; `per` samples lie in each of the row's true pixels. */
+typedef struct {
+    wall_row_t wall[MESH_MAX_WALLS];
+    int32_t walls;
+    const uint8_t *truth;
+    int32_t truth_width, truth_pixel, per;
 } sample_row_t;
 
-static sample_row_t sample_row(const double_homography_t *homography, double y, int32_t factor)
+static wall_row_t wall_row(mesh_t *mesh, const double_homography_t *homography, double y, int32_t factor)
 {
-    sample_row_t row;
-    for (int r = 0; r < 3; r++) {
-        row.step[r] = homography->panel_from_picture[r][0] / factor;
-        row.at_start[r] = homography->panel_from_picture[r][1] * y + homography->panel_from_picture[r][2];
+    wall_row_t row = {.mesh = mesh};
+    for (int r = 0; r < 4; r++) {
+        const double *form = r < 3 ? homography->panel_from_picture[r] : homography->inverse_depth;
+        row.step[r] = form[0] / factor;
+        row.at_start[r] = form[1] * y + form[2];
     }
     return row;
 }
 
-/* `per` samples lie in each of the row's true pixels. */
-static void add_row(mesh_t *mesh, const sample_row_t *row, const uint8_t *truth, int32_t truth_width, int32_t per)
+/* The wall's pixel under a sample, or NULL. */
+static mesh_cell_t *cell_at(const wall_row_t *row, double at)
 {
-    const double width = mesh->panel_width, height = mesh->panel_height;
-    int64_t covered = 0, sum_of_squares = 0;
-    for (int32_t x = 0; x < truth_width; x++) {
-        const int64_t value = truth[x];
-        for (int32_t k = 0; k < per; k++) {
-            const double at = (double)x * per + k + 0.5;
-            const double c = row->at_start[2] + at * row->step[2];
-            if (!(c > 0.0))
-                continue;
-            const double u = (row->at_start[0] + at * row->step[0]) / c;
-            const double v = (row->at_start[1] + at * row->step[1]) / c;
-            if (!(u >= 0.0 && u < width && v >= 0.0 && v < height))
-                continue;
-            mesh_cell_t *cell = &mesh->cell[(int64_t)(int32_t)v * mesh->panel_width + (int32_t)u];
-            cell->count++;
-            cell->sum += value;
-            covered++;
-            sum_of_squares += value * value;
+    const mesh_t *mesh = row->mesh;
+    const double c = row->at_start[2] + at * row->step[2];
+    if (!(c > 0.0))
+        return NULL;
+    const double u = (row->at_start[0] + at * row->step[0]) / c;
+    const double v = (row->at_start[1] + at * row->step[1]) / c;
+    if (!(u >= 0.0 && u < mesh->panel_width && v >= 0.0 && v < mesh->panel_height))
+        return NULL;
+    return &mesh->cell[(int64_t)(int32_t)v * mesh->panel_width + (int32_t)u];
+}
+
+/* Give one sample to the nearest wall in its way. */
+static void add_sample(const sample_row_t *row, double at, int64_t value)
+{
+    mesh_cell_t *seen = NULL;
+    mesh_t *owner = NULL;
+    double nearest = 0.0; /* the largest inverse depth */
+    for (int32_t n = 0; n < row->walls; n++) {
+        const wall_row_t *wall = &row->wall[n];
+        mesh_cell_t *cell = cell_at(wall, at);
+        if (cell == NULL)
+            continue;
+        const double inverse_depth = wall->at_start[3] + at * wall->step[3];
+        if (seen == NULL || inverse_depth > nearest) {
+            seen = cell;
+            owner = wall->mesh;
+            nearest = inverse_depth;
         }
     }
-    mesh->covered += covered;
-    mesh->sum_of_squares += sum_of_squares;
+    if (seen == NULL)
+        return;
+    seen->count++;
+    seen->sum += value;
+    owner->covered++;
+    owner->sum_of_squares += value * value;
+}
+
+static void add_row(const sample_row_t *row)
+{
+    for (int32_t x = 0; x < row->truth_width; x++) {
+        const int64_t value = row->truth[(int64_t)x * row->truth_pixel];
+        for (int32_t k = 0; k < row->per; k++)
+            add_sample(row, (double)x * row->per + k + 0.5, value);
+    }
+}
+
+image_t mesh_channel(const image_t *image, int byte)
+{
+    image_t channel = *image;
+    channel.data += byte;
+    return channel;
 }
 
 static bool sizes_fit(const double_homography_t *homography, const image_t *truth, int32_t factor,
@@ -72,27 +113,53 @@ static bool sizes_fit(const double_homography_t *homography, const image_t *trut
     return true;
 }
 
-bool mesh_sample(mesh_t *mesh, const double_homography_t *homography, const image_t *truth, int32_t factor,
-                 char error[FILE_ERROR_LENGTH])
+static bool make_mesh(mesh_t *mesh, const double_homography_t *homography, int32_t factor,
+                      char error[FILE_ERROR_LENGTH])
 {
+    const size_t cells = (size_t)homography->panel_width * (size_t)homography->panel_height;
+    *mesh = (mesh_t){.panel_width = homography->panel_width,
+                     .panel_height = homography->panel_height,
+                     .samples = (int64_t)homography->picture_width * homography->picture_height * factor * factor,
+                     .cell = calloc(cells, sizeof *mesh->cell)};
+    if (mesh->cell == NULL)
+        snprintf(error, FILE_ERROR_LENGTH, "out of memory for %zu projector pixels", cells);
+    return mesh->cell != NULL;
+}
+
+bool mesh_sample_walls(mesh_t *mesh, const double_homography_t *homography, int32_t walls, const image_t *truth,
+                       int32_t factor, char error[FILE_ERROR_LENGTH])
+{
+    assert(walls >= 1 && walls <= MESH_MAX_WALLS);
     if (!sizes_fit(homography, truth, factor, error))
         return false;
-    const size_t cells = (size_t)homography->panel_width * (size_t)homography->panel_height;
-    mesh_t made = {.panel_width = homography->panel_width,
-                   .panel_height = homography->panel_height,
-                   .samples = (int64_t)homography->picture_width * homography->picture_height * factor * factor,
-                   .cell = calloc(cells, sizeof *made.cell)};
-    if (made.cell == NULL) {
-        snprintf(error, FILE_ERROR_LENGTH, "out of memory for %zu projector pixels", cells);
+    mesh_t made[MESH_MAX_WALLS] = {{.cell = NULL}};
+    bool ok = true;
+    for (int32_t n = 0; ok && n < walls; n++)
+        ok = make_mesh(&made[n], &homography[n], factor, error);
+    if (!ok) {
+        for (int32_t n = 0; n < walls; n++)
+            mesh_free(&made[n]);
         return false;
     }
     const int32_t per = factor / (truth->width / homography->picture_width);
     for (int32_t y = 0; y < homography->picture_height * factor; y++) {
-        const sample_row_t row = sample_row(homography, (y + 0.5) / factor, factor);
-        add_row(&made, &row, image_row(truth, y / per), truth->width, per);
+        sample_row_t row = {.walls = walls,
+                            .truth = image_row(truth, y / per),
+                            .truth_width = truth->width,
+                            .truth_pixel = (int32_t)truth->format,
+                            .per = per};
+        for (int32_t n = 0; n < walls; n++)
+            row.wall[n] = wall_row(&made[n], &homography[n], (y + 0.5) / factor, factor);
+        add_row(&row);
     }
-    *mesh = made;
+    memcpy(mesh, made, (size_t)walls * sizeof *mesh);
     return true;
+}
+
+bool mesh_sample(mesh_t *mesh, const double_homography_t *homography, const image_t *truth, int32_t factor,
+                 char error[FILE_ERROR_LENGTH])
+{
+    return mesh_sample_walls(mesh, homography, 1, truth, factor, error);
 }
 
 void mesh_free(mesh_t *mesh)
@@ -102,18 +169,28 @@ void mesh_free(mesh_t *mesh)
 }
 
 /* The sum of (truth - shown)^2 is that of truth^2 - 2 truth shown + shown^2; at most 2^36 samples: exact. */
-double mesh_psnr_db(const mesh_t *mesh, const image_t *panel)
+int64_t mesh_square_error(const mesh_t *mesh, const image_t *panel)
 {
     int64_t error = mesh->sum_of_squares;
     for (int32_t j = 0; j < mesh->panel_height; j++) {
         const mesh_cell_t *cell = &mesh->cell[(int64_t)j * mesh->panel_width];
         const uint8_t *shown = image_row(panel, j);
-        for (int32_t i = 0; i < mesh->panel_width; i++)
-            error += shown[i] * (shown[i] * cell[i].count - 2 * cell[i].sum);
+        for (int32_t i = 0; i < mesh->panel_width; i++, shown += panel->format)
+            error += *shown * (*shown * cell[i].count - 2 * cell[i].sum);
     }
-    if (error == 0)
+    return error;
+}
+
+double mesh_db(int64_t square_error, int64_t samples)
+{
+    if (square_error == 0)
         return HUGE_VAL;
-    return 10.0 * log10(255.0 * 255.0 * (double)mesh->covered / (double)error);
+    return 10.0 * log10(255.0 * 255.0 * (double)samples / (double)square_error);
+}
+
+double mesh_psnr_db(const mesh_t *mesh, const image_t *panel)
+{
+    return mesh_db(mesh_square_error(mesh, panel), mesh->covered);
 }
 
 static uint8_t mean_of(const mesh_cell_t *cell)
@@ -128,8 +205,8 @@ void mesh_limit(const mesh_t *mesh, const image_t *panel)
     for (int32_t j = 0; j < mesh->panel_height; j++) {
         const mesh_cell_t *cell = &mesh->cell[(int64_t)j * mesh->panel_width];
         uint8_t *best = image_row(panel, j);
-        for (int32_t i = 0; i < mesh->panel_width; i++)
-            best[i] = mean_of(&cell[i]);
+        for (int32_t i = 0; i < mesh->panel_width; i++, best += panel->format)
+            *best = mean_of(&cell[i]);
     }
 }
 
