@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One board of a room file, one pose, one picture -> one corrected panel, with the product's own code.
+// Boards of a room file, one pose, one picture -> corrected panels, with the product's own code.
 #include "sim/eval/warp_once.h"
 
 #include <stdarg.h>
@@ -41,37 +41,58 @@ static void warn_if_mirrored(const warp_once_t *once, room_warning_fn *warn)
     warn(NULL, line);
 }
 
-static warp_once_status_t open_in_room(warp_once_t *once, const warp_once_place_t *place, const room_t *room,
-                                       room_warning_fn *warn, char error[ROOM_MESSAGE_LENGTH])
+/* Of the room's boards from `first` on. Only the pose can be refused, so nothing is written before it is not. */
+static warp_once_status_t see_walls(warp_once_t *wall, int32_t walls, const room_t *room, const room_board_t *first,
+                                    const warp_once_place_t *place, char error[ROOM_MESSAGE_LENGTH])
 {
-    const room_board_t *board = room_board_named(room, place->board);
-    if (board == NULL) {
-        say_boards(error, room, place);
-        return WARP_ONCE_BAD_USAGE;
-    }
-    warp_once_t made = {.camera = room->camera, .board = *board};
     pose_t pose;
     char reason[256];
     if (!pose_from_text(place->pose, &pose, reason)) {
         say(error, "--pose: %s", reason);
         return WARP_ONCE_BAD_USAGE;
     }
-    if (!homography_from_pose(&made.homography, &made.camera, &made.board.wall, &pose)) {
-        say(error, "--pose %.200s: the quaternion is zero, expected one of unit length", place->pose);
-        return WARP_ONCE_BAD_USAGE;
+    for (int32_t n = 0; n < walls; n++) {
+        homography_t homography;
+        if (!homography_from_pose(&homography, &room->camera, &first[n].wall, &pose)) {
+            say(error, "--pose %.200s: the quaternion is zero, expected one of unit length", place->pose);
+            return WARP_ONCE_BAD_USAGE;
+        }
+        wall[n] = (warp_once_t){.camera = room->camera, .board = first[n], .homography = homography};
     }
-    made.warp = malloc(sizeof *made.warp);
-    if (made.warp == NULL) {
-        say(error, "out of memory");
-        return WARP_ONCE_FAILED;
-    }
-    warn_if_mirrored(&made, warn);
-    *once = made;
     return WARP_ONCE_OK;
 }
 
-warp_once_status_t warp_once_open(warp_once_t *once, const warp_once_place_t *place, room_warning_fn *warn,
-                                  char error[ROOM_MESSAGE_LENGTH])
+static warp_once_status_t open_in_room(warp_once_t *wall, int32_t *walls, const room_t *room,
+                                       const warp_once_place_t *place, char error[ROOM_MESSAGE_LENGTH])
+{
+    const room_board_t *first = room->board;
+    int32_t count = room->board_count;
+    if (place->board != NULL) {
+        first = room_board_named(room, place->board);
+        count = 1;
+    }
+    if (first == NULL) {
+        say_boards(error, room, place);
+        return WARP_ONCE_BAD_USAGE;
+    }
+    warp_t *warp = malloc(sizeof *warp);
+    if (warp == NULL) {
+        say(error, "out of memory");
+        return WARP_ONCE_FAILED;
+    }
+    const warp_once_status_t status = see_walls(wall, count, room, first, place, error);
+    if (status != WARP_ONCE_OK) {
+        free(warp);
+        return status;
+    }
+    for (int32_t n = 0; n < count; n++)
+        wall[n].warp = warp;
+    *walls = count;
+    return WARP_ONCE_OK;
+}
+
+warp_once_status_t warp_once_open_walls(warp_once_t *wall, int32_t *walls, const warp_once_place_t *place,
+                                        room_warning_fn *warn, char error[ROOM_MESSAGE_LENGTH])
 {
     room_t *room = malloc(sizeof *room);
     if (room == NULL) {
@@ -80,9 +101,18 @@ warp_once_status_t warp_once_open(warp_once_t *once, const warp_once_place_t *pl
     }
     warp_once_status_t status = WARP_ONCE_FAILED;
     if (room_load(room, place->room, warn, NULL, error))
-        status = open_in_room(once, place, room, warn, error);
+        status = open_in_room(wall, walls, room, place, error);
     free(room);
+    for (int32_t n = 0; status == WARP_ONCE_OK && n < *walls; n++)
+        warn_if_mirrored(&wall[n], warn);
     return status;
+}
+
+warp_once_status_t warp_once_open(warp_once_t *once, const warp_once_place_t *place, room_warning_fn *warn,
+                                  char error[ROOM_MESSAGE_LENGTH])
+{
+    int32_t one;
+    return warp_once_open_walls(once, &one, place, warn, error);
 }
 
 void warp_once_close(warp_once_t *once)

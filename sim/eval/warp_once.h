@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One board of a room file, one pose, one picture -> one corrected panel, with the product's own code.
+// Boards of a room file, one pose, one picture -> corrected panels, with the product's own code.
 #ifndef SIM_EVAL_WARP_ONCE_H
 #define SIM_EVAL_WARP_ONCE_H
 
@@ -25,7 +25,7 @@ typedef struct {
 /** Which wall, seen from where: as on a command line. */
 typedef struct {
     const char *room;  /**< path of the room file */
-    const char *board; /**< name of the board */
+    const char *board; /**< name of the board; NULL for every board of the room */
     const char *pose;  /**< "x_mm y_mm z_mm qw qx qy qz" */
 } warp_once_place_t;
 
@@ -33,12 +33,22 @@ typedef struct {
  * Read the room and the pose.
  *
  * @param[out] once   Written only when WARP_ONCE_OK is returned; to be given to warp_once_close().
- * @param      place  The three texts; none may be NULL.
+ * @param      place  The three texts; none may be NULL here.
  * @param      warn   Hears the room file's warnings, and of a wall seen from behind, with context NULL; may be NULL.
  * @param[out] error  On failure: one line, which input, what was found, what was expected.
  */
 warp_once_status_t warp_once_open(warp_once_t *once, const warp_once_place_t *place, room_warning_fn *warn,
                                   char error[ROOM_MESSAGE_LENGTH]);
+
+/**
+ * The same for the boards that the place names: one, or every one of the room, in its order.
+ *
+ * @param[out] wall   Room for ROOM_MAX_BOARDS, or for 1 where a board is named. They share one warp: only the first is
+ *                    to be given to warp_once_close().
+ * @param[out] walls  How many.
+ */
+warp_once_status_t warp_once_open_walls(warp_once_t *wall, int32_t *walls, const warp_once_place_t *place,
+                                        room_warning_fn *warn, char error[ROOM_MESSAGE_LENGTH]);
 
 /** Give back its memory. */
 void warp_once_close(warp_once_t *once);
