@@ -1,0 +1,118 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# wallwarp-eval over a whole room: psnr of every wall and of the view, colour channels, advise.
+# Usage, from the tree's root: tests/sim/eval/test_eval_room.sh BUILD_FOLDER
+set -u
+eval_program=${1:?usage: test_eval_room.sh BUILD_FOLDER}/wallwarp-eval
+scratch=$(mktemp -d "${TMPDIR:-/tmp}/wallwarp-room.XXXXXX") || exit 1
+trap 'rm -rf "$scratch"' EXIT
+one=tests/oracle/room_480x270_eq.yaml
+one_pose='1250 0 -2165.063509 0.965925826 0 -0.258819045 0'
+gray=tests/images/studio_480x270.png
+demo=sim/demo/room.yaml
+corner='0 -1700 600 0.933012702 -0.25 0.25 0.066987298' # sees front, right and floor
+colour=sim/demo/studio_960x540.png
+passed=0 failed=0
+
+# check NAME STATUS: count a result; STATUS 0 is good.
+check() {
+    if [ "$2" -eq 0 ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAIL $1"
+    fi
+}
+
+# run ARGUMENTS...: results in $scratch/out, errors in $scratch/err.
+run() {
+    "$eval_program" "$@" >"$scratch/out" 2>"$scratch/err"
+}
+
+# refuses STATUS TEXT ARGUMENTS...: ends with this status, says TEXT on stderr, prints no results.
+refuses() {
+    status=$1
+    text=$2
+    shift 2
+    run "$@"
+    [ $? -eq "$status" ] && [ ! -s "$scratch/out" ] && grep -qF -e "$text" "$scratch/err"
+    good=$?
+    [ $good -eq 0 ] || cat "$scratch/err"
+    check "refuses $*" $good
+}
+
+test_room_of_one_board() {
+    run psnr $one --pose "$one_pose" --in $gray --method limit,area,mean+cubic --board front
+    awk 'NR == 1 { print "board," $0; next } { print "front," $0; print "view," $0 }' "$scratch/out" >"$scratch/expected"
+    run psnr $one --pose "$one_pose" --in $gray --method limit,area,mean+cubic
+    diff "$scratch/expected" "$scratch/out"
+    check 'a room of one board: the same digits for board and view' $?
+}
+
+# The view's error is the sum of its walls': 255^2 coverage / 10^(dB/10), each.
+test_view() {
+    run psnr $demo --pose "$corner" --in $colour --method limit,area,none+nearest
+    check 'psnr of a room' $?
+    awk -F, '
+        function square(db, coverage) { return coverage > 0 ? 65025 * coverage / 10 ^ (db / 10) : 0 }
+        function near(a, b, by) { return a - b <= by && b - a <= by }
+        NR == 1 { good = $0 == "board,method,psnr_db,limit_db,k_in,k_all,coverage"; next }
+        $1 == "view" {
+            good = good && near($7, coverage, 0.0003) && near(square($3, $7), error, 0.001 * error) &&
+                   near(square($4, $7), limit, 0.001 * limit) && near($5, k_in, 0) && near($6, k_all, 0) && walls == 4
+            coverage = error = limit = k_in = k_all = walls = 0
+            views++
+            next
+        }
+        { coverage += $7; error += square($3, $7); limit += square($4, $7); walls++
+          k_in = $5 > k_in ? $5 : k_in; k_all = $6 > k_all ? $6 : k_all
+          seen[$1] = $7 }
+        END { exit !(good && views == 3 && seen["front"] > 0.05 && seen["right"] > 0.05 && seen["floor"] > 0.05 &&
+                     seen["left"] == 0) }' "$scratch/out"
+    good=$?
+    [ $good -eq 0 ] || cat "$scratch/out"
+    check "the view is the sum of its walls" $good
+    grep -Eqx 'left,area,inf,inf,0\.0000,[0-9.]+,0\.0000' "$scratch/out"
+    check 'a wall out of view has its row' $?
+}
+
+# Gray: every channel is luma. Colour: channels differ, and Y is what it is without --channels.
+test_channels() {
+    run psnr $one --pose "$one_pose" --in $gray --method area --board front --channels
+    [ "$(head -n 1 "$scratch/out")" = channel,method,psnr_db,limit_db,k_in,k_all,coverage ] &&
+        [ "$(sed 1d "$scratch/out" | cut -d, -f1 | tr -d '\n')" = YRGB ] &&
+        [ "$(sed 1d "$scratch/out" | cut -d, -f2- | uniq | wc -l)" -eq 1 ]
+    check 'channels of a gray picture are its luma' $?
+    run psnr $demo --pose "$corner" --in $colour --method limit,area
+    cp "$scratch/out" "$scratch/luma"
+    run psnr $demo --pose "$corner" --in $colour --method limit,area --channels
+    awk -F, -v OFS=, '$2 == "Y" || NR == 1 { print $1, $3, $4, $5, $6, $7, $8 }' "$scratch/out" |
+        diff - "$scratch/luma" &&
+        [ "$(wc -l <"$scratch/out")" -eq 41 ] &&
+        [ "$(grep '^view,.,area' "$scratch/out" | cut -d, -f4 | sort -u | wc -l)" -eq 4 ]
+    check 'channels of a colour picture' $?
+    run psnr $demo --pose "$corner" --in $colour --original tests/images/studio_1920x1080.png --method area --channels
+    [ "$(grep -c '^front,[YRGB],area,' "$scratch/out")" -eq 4 ]
+    check 'channels against a finer original' $?
+}
+
+test_bad_psnr_usage() {
+    refuses 2 '--pose is missing' psnr $demo --in $colour --method area
+    refuses 2 'ROOM is missing' psnr --pose "$corner" --in $colour --method area
+    refuses 2 'expected one of front, left, right, floor' psnr $demo --board '' --pose "$corner" --in $colour --method area
+    refuses 2 '--pose' psnr $demo --pose '1 2 3' --in $colour --method area
+    refuses 1 'expected 960 x 540' psnr $demo --pose "$corner" --in $gray --method area
+    refuses 1 'studio_1920x1080.png: factor 3, expected a multiple of 2' psnr sim/demo/room.yaml --pose "$corner" --factor 3 \
+        --in $colour --original tests/images/studio_1920x1080.png --method area
+    sed 's/name: left/name: view/' $demo >"$scratch/room.yaml"
+    refuses 1 "a board is named 'view'" psnr "$scratch/room.yaml" --pose "$corner" --in $colour --method area
+    run psnr "$scratch/room.yaml" --pose "$corner" --in $colour --method area --board view
+    check 'a board named view is measured alone' $?
+}
+
+test_room_of_one_board
+test_view
+test_channels
+test_bad_psnr_usage
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
