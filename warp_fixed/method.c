@@ -2,7 +2,6 @@
 // Names of the methods: a prefilter and a way to resample.
 #include "warp_fixed/method.h"
 
-#include <stdbool.h>
 #include <stddef.h>
 
 const warp_method_t warp_methods[WARP_METHODS] = {
@@ -22,6 +21,7 @@ const warp_method_t warp_methods[WARP_METHODS] = {
     {"butter+linear", WARP_FILTER_BUTTER, WARP_LINEAR},
     {"butter+cubic", WARP_FILTER_BUTTER, WARP_CUBIC},
     {"butter+spline", WARP_FILTER_BUTTER, WARP_SPLINE},
+    {"auto", WARP_FILTER_NONE, WARP_AUTO},
     {"area", WARP_FILTER_NONE, WARP_AREA},
     {"mean+spline", WARP_FILTER_NONE, WARP_MEAN_SPLINE},
     {"mean+cubic", WARP_FILTER_NONE, WARP_MEAN_CUBIC},
@@ -47,4 +47,13 @@ const warp_method_t *warp_method_from_name(const char *name)
 const warp_method_t *warp_method_default(void)
 {
     return &warp_methods[WARP_METHODS - 1];
+}
+
+warp_resampler_t warp_resampler_for_step(warp_resampler_t last, int32_t k_q16)
+{
+    const bool spline = last == WARP_MEAN_SPLINE;
+    if (k_q16 == 0)
+        return spline ? WARP_MEAN_SPLINE : WARP_MEAN_CUBIC;
+    const int32_t limit_q16 = spline ? WARP_AUTO_CUBIC_K_Q16 : WARP_AUTO_SPLINE_K_Q16;
+    return k_q16 <= limit_q16 ? WARP_MEAN_SPLINE : WARP_MEAN_CUBIC;
 }

@@ -26,7 +26,12 @@ void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t 
     for (int channel = 0; channel < 3; channel++)
         warp->border[channel] = border[2 - channel];
     warp->border[3] = 0;
-    window_weights_init(warp_splines(method.resampler) ? &warp->spline_weights : &warp->byte_weights, method.resampler);
+    warp->resampler = method.resampler;
+    const bool is_auto = method.resampler == WARP_AUTO;
+    if (is_auto || warp_splines(method.resampler))
+        window_weights_init(&warp->spline_weights, is_auto ? WARP_MEAN_SPLINE : method.resampler);
+    if (is_auto || !warp_splines(method.resampler))
+        window_weights_init(&warp->byte_weights, is_auto ? WARP_MEAN_CUBIC : method.resampler);
     prefilter_init(&warp->prefilter);
 }
 
@@ -46,15 +51,15 @@ static void choose_blocks(frame_t *frame, int32_t j)
     footprint_blocks(&warp->blocks, &warp->grid, j, frame->block_log2);
     for (int32_t b = warp->blocks.begin; b < warp->blocks.end; b++) {
         const footprint_sides_t sides = warp->blocks.block[b];
-        warp->block[b] = (warp_block_t){window_side(warp->method.resampler, sides.width_q16),
-                                        window_side(warp->method.resampler, sides.height_q16)};
+        warp->block[b] = (warp_block_t){window_side(warp->resampler, sides.width_q16),
+                                        window_side(warp->resampler, sides.height_q16)};
     }
 }
 
 static window_t window_of(const frame_t *frame, const warp_block_t *block)
 {
     warp_t *warp = frame->warp;
-    const bool splines = warp_splines(warp->method.resampler);
+    const bool splines = warp_splines(warp->resampler);
     const window_weights_t *weights = splines ? &warp->spline_weights : &warp->byte_weights;
     const int level_x = block->x.level, level_y = block->y.level;
     window_t window = {
@@ -78,13 +83,13 @@ static void resample(const frame_t *frame, int32_t j, int32_t begin, int32_t end
     const bool gray = frame->panel->format == IMAGE_GRAY8;
     uint8_t *row = image_row(frame->panel, j);
     const int32_t channels = (int32_t)frame->panel->format;
-    if (frame->warp->method.resampler == WARP_NEAREST) {
+    if (frame->warp->resampler == WARP_NEAREST) {
         resample_nearest_fn *nearest = gray ? kernels->nearest_gray : kernels->nearest_xrgb;
         nearest(row + begin * channels, &frame->picture, x, y, end - begin);
         return;
     }
     resample_window_fn *weigh = gray ? kernels->window_gray : kernels->window_xrgb;
-    if (warp_splines(frame->warp->method.resampler))
+    if (warp_splines(frame->warp->resampler))
         weigh = gray ? kernels->spline_gray : kernels->spline_xrgb;
     for (int32_t i = begin; i < end;) {
         const int32_t block = i >> frame->block_log2, block_end = (block + 1) << frame->block_log2;
@@ -129,11 +134,13 @@ bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *repo
     levels_begin(&warp->levels);
     spline_begin(&warp->spline);
     frame_t frame = {.warp = warp, .kernels = kernels, .panel = panel};
-    frame.picture = prefilter_picture(&warp->prefilter, kernels, picture, warp->method.filter,
-                                      warp->step_all ? step.all_q16 : step.in_q16);
+    const int32_t k_q16 = warp->step_all ? step.all_q16 : step.in_q16;
+    frame.picture = prefilter_picture(&warp->prefilter, kernels, picture, warp->method.filter, k_q16);
+    if (warp->method.resampler == WARP_AUTO)
+        warp->resampler = warp_resampler_for_step(warp->resampler, k_q16);
 
     /* Plain interpolation has no sides: one block, of side 0, serves every row. */
-    const bool averages = warp_averages(warp->method.resampler);
+    const bool averages = warp_averages(warp->resampler);
     frame.block_log2 = WHOLE_ROW_LOG2;
     warp->block[0] = (warp_block_t){{0, 0}, {0, 0}};
     int32_t lit = 0;
@@ -146,6 +153,6 @@ bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *repo
         lit += warp->grid.row[j].end - warp->grid.row[j].begin;
     }
     if (report != NULL)
-        *report = (warp_report_t){step.in_q16, step.all_q16, lit};
+        *report = (warp_report_t){step.in_q16, step.all_q16, lit, warp->resampler};
     return true;
 }

@@ -25,9 +25,10 @@ typedef struct {
 /** Everything a board needs between and within frames; about 144 MB, most of it never touched by small pictures. */
 typedef struct {
     warp_method_t method;
-    bool step_all;     /**< take k over the whole wall, not only over what lands in the picture */
-    uint8_t border[4]; /**< B, G, R, X of unlit pixels; border[0] alone for gray */
-    window_weights_t byte_weights, spline_weights; /**< the one that the method needs */
+    bool step_all;              /**< take k over the whole wall, not only over what lands in the picture */
+    uint8_t border[4];          /**< B, G, R, X of unlit pixels; border[0] alone for gray */
+    warp_resampler_t resampler; /**< of the present frame: the method's, unless that is WARP_AUTO */
+    window_weights_t byte_weights, spline_weights; /**< those that the method needs */
     grid_t grid;
     footprint_blocks_t blocks;
     warp_block_t block[IMAGE_MAX_WIDTH];
@@ -38,13 +39,14 @@ typedef struct {
 
 /** What a frame turned out to be, for telemetry and evaluation. */
 typedef struct {
-    int32_t k_in_q16;   /**< step k over pixels in the picture (eq 4, 5), closed form; 0 when none is */
-    int32_t k_all_q16;  /**< step k over the whole wall; saturates when part of it is behind the viewer */
-    int32_t lit_pixels; /**< panel pixels that show picture */
+    int32_t k_in_q16;           /**< step k over pixels in the picture (eq 4, 5), closed form; 0 when none is */
+    int32_t k_all_q16;          /**< step k over the whole wall; saturates when part of it is behind the viewer */
+    int32_t lit_pixels;         /**< panel pixels that show picture */
+    warp_resampler_t resampler; /**< that was used: the method's, or WARP_AUTO's choice */
 } warp_report_t;
 
 /**
- * Prepare for a method: build its weight table. Takes some milliseconds; call it before the loop.
+ * Prepare for a method: build its weight tables. Takes some milliseconds; call it before the loop.
  *
  * @param[out] warp    Need not be initialised. Holds no pointer into itself or elsewhere: may be moved.
  * @param      border  Colour of unlit pixels: R, G, B.

@@ -95,6 +95,7 @@ static const kernel_t *kernel_of(warp_resampler_t resampler)
     case WARP_AREA:
         return &box;
     case WARP_NEAREST:
+    case WARP_AUTO:
         break;
     }
     return NULL;

@@ -37,7 +37,8 @@ static void parse_methods(psnr_options_t *options, char *list, struct argp_state
     if (strcmp(list, "all") == 0) {
         add_method(options, limit_name, state);
         for (int m = 0; m < WARP_METHODS; m++)
-            add_method(options, warp_methods[m].name, state);
+            if (warp_methods[m].resampler != WARP_AUTO) /* it is one of the others */
+                add_method(options, warp_methods[m].name, state);
         return;
     }
     for (char *name = strsep(&list, ","); name != NULL; name = strsep(&list, ","))
