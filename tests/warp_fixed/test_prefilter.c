@@ -14,57 +14,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tests/support/float_methods.h"
 #include "tests/support/rng.h"
 #include "warp_fixed/fixed.h"
 
 enum { WIDTH = 61, HEIGHT = 47 };
 
 static prefilter_t prefilter;
-
-static double bessel_i0(double x)
-{
-    double term = 1, sum = 1;
-    for (int m = 1; m < 40; m++) {
-        term *= x * x / 4 / m / m;
-        sum += term;
-    }
-    return sum;
-}
-
-/* Weight n of the filter before it is normalised: DESIGN section 4. */
-static double float_tap(warp_filter_t filter, double k, int n)
-{
-    if (filter == WARP_FILTER_GAUSS) {
-        const double sigma = k * sqrt(log(2)) / M_PI;
-        return exp(-n * n / (2 * sigma * sigma));
-    }
-    if (filter == WARP_FILTER_KAISER) {
-        const double part = n / ceil(6 * k), sinc = n == 0 ? 1 : sin(M_PI * n / k) / (M_PI * n / k);
-        return sinc * bessel_i0(5 * sqrt(fmax(0, 1 - part * part))) / bessel_i0(5);
-    }
-    double sum = 0; /* the inverse Fourier integral of |H|, by the midpoint rule */
-    enum { STEPS = 8192 };
-    for (int i = 0; i < STEPS; i++) {
-        const double f = (i + 0.5) / STEPS / 2;
-        sum += cos(2 * M_PI * f * n) / sqrt(1 + pow(2 * k * f, 8));
-    }
-    return sum / STEPS;
-}
-
-/* Normalised weights. @return the radius. */
-static int float_taps(double taps[PREFILTER_MAX_RADIUS + 1], warp_filter_t filter, double k)
-{
-    const double radii[4] = {0, floor(4 * k * sqrt(log(2)) / M_PI), ceil(6 * k), ceil(8 * k)};
-    const int radius = (int)radii[filter];
-    double total = 0;
-    for (int n = 0; n <= radius; n++) {
-        taps[n] = float_tap(filter, k, n);
-        total += n == 0 ? taps[n] : 2 * taps[n];
-    }
-    for (int n = 0; n <= radius; n++)
-        taps[n] /= total;
-    return radius;
-}
 
 static void check_taps(warp_filter_t filter, int32_t k_q16)
 {

@@ -9,9 +9,9 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "tests/support/float_methods.h"
 #include "tests/support/rng.h"
 #include "warp_fixed/kernels_scalar.h"
 #include "warp_fixed/spline.h"
@@ -37,41 +37,6 @@ static uint8_t gray[WIDTH * HEIGHT], color[WIDTH * HEIGHT * 4];
 static double surface[WIDTH * HEIGHT]; /* what the kernel weighs: gray, or its spline coefficients */
 static spline_t spline;
 
-/* Running integral of the kernel from 0 to t. */
-static double integral(warp_resampler_t resampler, double t)
-{
-    if (resampler == WARP_AREA)
-        return fmax(-0.5, fmin(0.5, t));
-    const double a = fmin(fabs(t), 2);
-    if (warp_splines(resampler)) {
-        const double part = a < 1 ? a * a * a * a / 8 - a * a * a / 3 + 2 * a / 3 : 0.5 - pow(2 - a, 4) / 24;
-        return t < 0 ? -part : part;
-    }
-    const double size = a < 1 ? 0.375 * a * a * a * a - 2.5 / 3 * a * a * a + a
-                              : -0.125 * a * a * a * a + 2.5 / 3 * a * a * a - 2 * a * a + 2 * a - 1.0 / 6;
-    return t < 0 ? -size : size;
-}
-
-static double kernel(warp_resampler_t resampler, double t)
-{
-    const double a = fabs(t);
-    if (resampler == WARP_AREA)
-        return t >= -0.5 && t < 0.5;
-    if (resampler == WARP_LINEAR)
-        return fmax(0, 1 - a);
-    if (warp_splines(resampler))
-        return a < 1 ? a * a * a / 2 - a * a + 2.0 / 3 : a < 2 ? pow(2 - a, 3) / 6 : 0;
-    return a < 1 ? 1.5 * a * a * a - 2.5 * a * a + 1 : a < 2 ? -0.5 * a * a * a + 2.5 * a * a - 4 * a + 2 : 0;
-}
-
-/* DESIGN section 4: the weight of the texel whose centre is at distance t before the point. */
-static double weight(warp_resampler_t resampler, double t, double side)
-{
-    if (side == 0)
-        return kernel(resampler, t);
-    return (integral(resampler, t + side / 2) - integral(resampler, t - side / 2)) / side;
-}
-
 static double side_px(int32_t side)
 {
     return side < 64 ? side / 64.0 : (1 + (side - 64) % 32 / 32.0) * (1 << (side - 64) / 32);
@@ -82,9 +47,9 @@ static double float_definition(warp_resampler_t resampler, const double point[2]
     double sum = 0, wx[WIDTH + 400], wy[HEIGHT + 400];
     const int margin = 200;
     for (int i = -margin; i < WIDTH + margin; i++)
-        wx[i + margin] = weight(resampler, point[0] - i - 0.5, side[0]);
+        wx[i + margin] = float_weight(resampler, point[0] - i - 0.5, side[0]);
     for (int j = -margin; j < HEIGHT + margin; j++)
-        wy[j + margin] = weight(resampler, point[1] - j - 0.5, side[1]);
+        wy[j + margin] = float_weight(resampler, point[1] - j - 0.5, side[1]);
     for (int j = -margin; j < HEIGHT + margin; j++) {
         if (wy[j + margin] == 0)
             continue;
@@ -113,28 +78,12 @@ static void paint(int kind, rng_t *rng)
         memset(color + 4 * k, gray[k], 4);
 }
 
-/* One axis of the interpolating spline's coefficients, from its closed form; count values, `step` apart. */
-static void to_coefficients(double *values, int count, int step)
-{
-    double in[WIDTH > HEIGHT ? WIDTH : HEIGHT];
-    for (int n = 0; n < count; n++)
-        in[n] = values[n * step];
-    for (int n = 0; n < count; n++) {
-        double sum = 0;
-        for (int m = -40; m <= 40; m++) /* 0.27^40 is nothing */
-            sum += sqrt(3) * pow(2 - sqrt(3), abs(m)) * (m % 2 == 0 ? 1 : -1) * in[mirror_index(n + m, count)];
-        values[n * step] = sum;
-    }
-}
-
 static void make_surface(warp_resampler_t resampler)
 {
     for (int k = 0; k < WIDTH * HEIGHT; k++)
         surface[k] = gray[k];
-    for (int y = 0; warp_splines(resampler) && y < HEIGHT; y++)
-        to_coefficients(surface + y * WIDTH, WIDTH, 1);
-    for (int x = 0; warp_splines(resampler) && x < WIDTH; x++)
-        to_coefficients(surface + x, HEIGHT, WIDTH);
+    if (warp_splines(resampler))
+        float_spline_coefficients(surface, WIDTH, HEIGHT);
 }
 
 /* After a change of the pixels, spline_begin() must have been called. */
