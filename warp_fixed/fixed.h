@@ -56,6 +56,12 @@ static inline int32_t clamp_i32(int32_t x, int32_t low, int32_t high)
     return x < low ? low : x > high ? high : x;
 }
 
+/** @return a * b / 2^31 to nearest, ties up; not both -2^31. NEON: one vqrdmulh lane. */
+static inline int32_t mul_q31(int32_t a, int32_t b)
+{
+    return (int32_t)(((int64_t)a * b + (1 << 30)) >> 31);
+}
+
 static inline int64_t clamp_i64(int64_t x, int64_t low, int64_t high)
 {
     return x < low ? low : x > high ? high : x;

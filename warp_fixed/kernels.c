@@ -16,4 +16,8 @@ const warp_kernels_t warp_kernels_scalar = {
     .spline_row = spline_row_scalar,
     .spline_gray = resample_spline_gray_scalar,
     .spline_xrgb = resample_spline_xrgb_scalar,
+    .ls_forward = ls_forward_scalar,
+    .ls_backward = ls_backward_scalar,
+    .ls_gray = resample_ls_gray_scalar,
+    .ls_xrgb = resample_ls_xrgb_scalar,
 };

@@ -10,6 +10,7 @@
 
 #include "warp_fixed/grid_from_homography.h"
 #include "warp_fixed/image.h"
+#include "warp_fixed/ls_axis.h"
 #include "warp_fixed/window_weights.h"
 
 /**
@@ -95,6 +96,46 @@ typedef void prefilter_row_fn(uint8_t *restrict out, const int16_t *restrict v, 
 typedef void spline_row_fn(int16_t *restrict out, const int16_t *restrict v, const fir_t *fir, int32_t count,
                            int32_t channels);
 
+enum {
+    LS_LANES = 16,          /**< pictures are fitted in strips of so many rows, or columns, times channels */
+    LS_COEFFICIENT_BITS = 4 /**< of a surface: Q4, up to +-2^27 grey levels */
+};
+
+/**
+ * Take one equation into the right-hand sides: scale the data, then turn it with each of four rows (ls_axis.h).
+ *
+ * For t = 0 to 3: (z_t, d) = (cos z_t + sin d, cos d - sin z_t), every product rounded as mul_q31().
+ *
+ * @param z     Rows `first` to `first + 3`, each of LS_LANES.
+ * @param data  LS_LANES.
+ */
+typedef void ls_forward_fn(int32_t *restrict z, const int32_t *restrict data, const ls_equation_t *equation);
+
+/**
+ * Replace one row of right-hand sides by coefficients, saturated to +-(2^31 - 1).
+ *
+ * @param row  LS_LANES right-hand sides, then three rows of LS_LANES coefficients.
+ */
+typedef void ls_backward_fn(int32_t *row, const ls_solution_t *solution);
+
+/** A fitted picture. */
+typedef struct {
+    const ls_axis_t *x, *y;
+    const int32_t *coefficients; /**< Q4; rows of x->coefficients times the picture's channels */
+} ls_surface_t;
+
+/**
+ * Evaluate the surface of eq 6 at each point.
+ *
+ * v = sum_x weight * coefficient for each of four rows, rounded to Q4; out = sum_y weight * v, per channel, rounded
+ * half up and clamped to 0..255.
+ *
+ * @param[out] out      count pixels of the fitted picture's format.
+ * @param      x_q18, y_q18  count points; clamped here to the picture.
+ */
+typedef void resample_ls_fn(uint8_t *restrict out, const ls_surface_t *surface, const int32_t *restrict x_q18,
+                            const int32_t *restrict y_q18, int32_t count);
+
 /** The loops of one CPU level. */
 typedef struct {
     const char *name;
@@ -105,6 +146,9 @@ typedef struct {
     prefilter_row_fn *prefilter_row;
     spline_row_fn *spline_row;
     resample_window_fn *spline_gray, *spline_xrgb;
+    ls_forward_fn *ls_forward;
+    ls_backward_fn *ls_backward;
+    resample_ls_fn *ls_gray, *ls_xrgb;
 } warp_kernels_t;
 
 /** Plain C: the definition of every loop. */

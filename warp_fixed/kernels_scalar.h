@@ -15,5 +15,9 @@ prefilter_row_fn prefilter_row_scalar;
 spline_row_fn spline_row_scalar;
 resample_window_fn resample_spline_gray_scalar;
 resample_window_fn resample_spline_xrgb_scalar;
+ls_forward_fn ls_forward_scalar;
+ls_backward_fn ls_backward_scalar;
+resample_ls_fn resample_ls_gray_scalar;
+resample_ls_fn resample_ls_xrgb_scalar;
 
 #endif

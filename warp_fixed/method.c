@@ -21,6 +21,7 @@ const warp_method_t warp_methods[WARP_METHODS] = {
     {"butter+linear", WARP_FILTER_BUTTER, WARP_LINEAR},
     {"butter+cubic", WARP_FILTER_BUTTER, WARP_CUBIC},
     {"butter+spline", WARP_FILTER_BUTTER, WARP_SPLINE},
+    {"ls", WARP_FILTER_NONE, WARP_LS},
     {"auto", WARP_FILTER_NONE, WARP_AUTO},
     {"area", WARP_FILTER_NONE, WARP_AREA},
     {"mean+spline", WARP_FILTER_NONE, WARP_MEAN_SPLINE},

@@ -13,6 +13,7 @@ typedef enum {
     WARP_LINEAR,      /**< bilinear */
     WARP_CUBIC,       /**< Keys' cubic convolution, a = -1/2 */
     WARP_SPLINE,      /**< interpolating cubic B-spline */
+    WARP_LS,          /**< least-squares cubic spline for the step k */
     WARP_AREA,        /**< mean over the pixel's footprint of the picture as squares */
     WARP_MEAN_CUBIC,  /**< mean over the footprint, less the picture pixels' own, of the cubic surface */
     WARP_MEAN_SPLINE, /**< the same of the spline surface */
@@ -50,7 +51,7 @@ typedef struct {
     warp_resampler_t resampler;
 } warp_method_t;
 
-enum { WARP_METHODS = 20 };
+enum { WARP_METHODS = 21 };
 
 /** Every method of this build. The last one is the default. */
 extern const warp_method_t warp_methods[WARP_METHODS];

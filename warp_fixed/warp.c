@@ -15,8 +15,9 @@ typedef struct {
     warp_t *warp;
     const warp_kernels_t *kernels;
     const image_t *panel;
-    image_t picture; /* after the prefilter */
-    int block_log2;  /* of the present rows' blocks */
+    image_t picture;      /* after the prefilter */
+    ls_surface_t surface; /* of the picture, for WARP_LS */
+    int block_log2;       /* of the present rows' blocks */
 } frame_t;
 
 void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t border[3])
@@ -33,6 +34,14 @@ void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t 
     if (is_auto || !warp_splines(method.resampler))
         window_weights_init(&warp->byte_weights, is_auto ? WARP_MEAN_CUBIC : method.resampler);
     prefilter_init(&warp->prefilter);
+    if (method.resampler == WARP_LS)
+        ls_init(&warp->ls);
+}
+
+void warp_set_ls_weights(warp_t *warp, const ls_weights_t *weights)
+{
+    if (warp->method.resampler == WARP_LS)
+        ls_set_weights(&warp->ls, weights);
 }
 
 static void fill_border(const warp_t *warp, const image_t *panel, int32_t j, int32_t begin, int32_t end)
@@ -88,6 +97,11 @@ static void resample(const frame_t *frame, int32_t j, int32_t begin, int32_t end
         nearest(row + begin * channels, &frame->picture, x, y, end - begin);
         return;
     }
+    if (frame->warp->method.resampler == WARP_LS) {
+        resample_ls_fn *evaluate = gray ? kernels->ls_gray : kernels->ls_xrgb;
+        evaluate(row + begin * channels, &frame->surface, x, y, end - begin);
+        return;
+    }
     resample_window_fn *weigh = gray ? kernels->window_gray : kernels->window_xrgb;
     if (warp_splines(frame->warp->resampler))
         weigh = gray ? kernels->spline_gray : kernels->spline_xrgb;
@@ -132,12 +146,15 @@ bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *repo
     const footprint_step_t step = footprint_step(homography);
     grid_from_homography(&warp->grid, homography);
     levels_begin(&warp->levels);
-    spline_begin(&warp->spline);
+    if (warp->method.resampler != WARP_LS)
+        spline_begin(&warp->spline);
     frame_t frame = {.warp = warp, .kernels = kernels, .panel = panel};
     const int32_t k_q16 = warp->step_all ? step.all_q16 : step.in_q16;
     frame.picture = prefilter_picture(&warp->prefilter, kernels, picture, warp->method.filter, k_q16);
     if (warp->method.resampler == WARP_AUTO)
         warp->resampler = warp_resampler_for_step(warp->resampler, k_q16);
+    if (warp->method.resampler == WARP_LS)
+        frame.surface = ls_fit(&warp->ls, kernels, picture, k_q16);
 
     /* Plain interpolation has no sides: one block, of side 0, serves every row. */
     const bool averages = warp_averages(warp->resampler);

@@ -12,6 +12,7 @@
 #include "warp_fixed/image.h"
 #include "warp_fixed/kernels.h"
 #include "warp_fixed/levels.h"
+#include "warp_fixed/ls_fit.h"
 #include "warp_fixed/method.h"
 #include "warp_fixed/prefilter.h"
 #include "warp_fixed/spline.h"
@@ -22,7 +23,7 @@ typedef struct {
     window_side_t x, y;
 } warp_block_t;
 
-/** Everything a board needs between and within frames; about 144 MB, most of it never touched by small pictures. */
+/** Everything a board needs between and within frames; about 190 MB, most of it never touched by small pictures. */
 typedef struct {
     warp_method_t method;
     bool step_all;              /**< take k over the whole wall, not only over what lands in the picture */
@@ -34,7 +35,10 @@ typedef struct {
     warp_block_t block[IMAGE_MAX_WIDTH];
     prefilter_t prefilter;
     levels_t levels;
-    spline_t spline;
+    union {
+        spline_t spline;
+        ls_t ls;
+    }; /**< the one that the method needs */
 } warp_t;
 
 /** What a frame turned out to be, for telemetry and evaluation. */
@@ -52,6 +56,14 @@ typedef struct {
  * @param      border  Colour of unlit pixels: R, G, B.
  */
 void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t border[3]);
+
+/**
+ * Give method ls other weights than its uniform ones; other methods have none, and this does nothing.
+ *
+ * @param warp     After warp_init().
+ * @param weights  For pictures of the size that frames will have; copied.
+ */
+void warp_set_ls_weights(warp_t *warp, const ls_weights_t *weights);
 
 /**
  * Make one frame. Every panel pixel is written, nothing else.

@@ -96,6 +96,7 @@ static const kernel_t *kernel_of(warp_resampler_t resampler)
         return &box;
     case WARP_NEAREST:
     case WARP_AUTO:
+    case WARP_LS:
         break;
     }
     return NULL;

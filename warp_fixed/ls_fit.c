@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Picture -> least-squares spline surface (eq 6, 7 of the paper), in real time: along x, then along y.
+//
+// Range. The scaled data of an axis of N pixels, |pixel| <= P, have a norm of at most P sqrt(sum w_i / h) <= 64 P,
+// since w_i <= 1 and h >= N / 4096. Rotations keep norms, so no right-hand side nor any value on its way exceeds 64 P.
+// With P = 255 * 2^17 that is 2^31 * 255 / 256; the rest is room for the rounding of 8 products in each of 4096
+// equations. (Without weights it is 2.3 P, since a right-hand side feels a few pieces only.) Bytes enter as Q17. Along
+// y each lane, a column of coefficients, is shifted to have P between half and all of that.
+//
+// Coefficients have LS_STATE_BITS fraction bits less than right-hand sides, so 32 bits hold 2^12 P. Without weights no
+// coefficient exceeds 2600 P, at N = 17 and k = 1.25; it is 1060 P there for larger N, 53 P at k = 1.5, 11 P at k = 2
+// and 9 P when interpolating, always in the outermost one: the fit extrapolates over the last half pixel. Weights can
+// multiply that by 64, and then coefficients saturate.
+//
+// Error. A right-hand side takes part in 4 equations per pixel of a piece, each rounds it twice to 2^-17 of a level:
+// near k = 1.25 some 2^-16 levels together, as in R itself. The back substitution rounds to 2^-11. Both are enlarged as
+// the coefficients are: to a few 0.01 levels there, and some 0.1 level in the outermost half pixel.
+#include "warp_fixed/ls_fit.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "warp_fixed/fixed.h"
+
+enum { PIXEL_BITS = 17, ROW_BITS = PIXEL_BITS - LS_STATE_BITS };
+
+static const int32_t largest_data = 255 << PIXEL_BITS;
+
+void ls_weights_init(ls_weights_t *weights)
+{
+    for (int32_t i = 0; i < IMAGE_MAX_WIDTH; i++)
+        weights->x[i] = LS_WEIGHT_ONE;
+    for (int32_t j = 0; j < IMAGE_MAX_HEIGHT; j++)
+        weights->y[j] = LS_WEIGHT_ONE;
+}
+
+void ls_init(ls_t *ls)
+{
+    ls_weights_init(&ls->weights);
+    ls_axis_init(&ls->x);
+    ls_axis_init(&ls->y);
+}
+
+void ls_set_weights(ls_t *ls, const ls_weights_t *weights)
+{
+    ls->weights = *weights;
+    ls_axis_init(&ls->x);
+    ls_axis_init(&ls->y);
+}
+
+static void begin_strip(ls_t *ls, const ls_axis_t *axis)
+{
+    memset(ls->strip, 0, sizeof(int32_t) * LS_LANES * (size_t)(axis->coefficients + LS_TAPS - 1));
+}
+
+static void take_equation(ls_t *ls, const warp_kernels_t *kernels, const ls_equation_t *equation, const int32_t *data)
+{
+    kernels->ls_forward(ls->strip + equation->first * LS_LANES, data, equation);
+}
+
+/* Equations without data, of axes below 4 pixels, then the coefficients. */
+static void end_strip(ls_t *ls, const warp_kernels_t *kernels, const ls_axis_t *axis)
+{
+    const int32_t nothing[LS_LANES] = {0};
+    for (int32_t i = axis->knots.size; i < axis->equations; i++)
+        take_equation(ls, kernels, &axis->equation[i], nothing);
+    for (int32_t j = axis->coefficients - 1; j >= 0; j--)
+        kernels->ls_backward(ls->strip + j * LS_LANES, &axis->solution[j]);
+}
+
+/* Picture rows [y, end) -> rows of coefficients. Lanes are rows times channels. */
+static void fit_rows(ls_t *ls, const warp_kernels_t *kernels, const image_t *picture, int32_t y, int32_t end)
+{
+    const int32_t channels = (int32_t)picture->format;
+    const ptrdiff_t stride = (ptrdiff_t)ls->x.coefficients * channels;
+    int32_t data[LS_LANES] = {0};
+    begin_strip(ls, &ls->x);
+    for (int32_t x = 0; x < picture->width; x++) {
+        for (int32_t row = y, lane = 0; row < end; row++)
+            for (int32_t channel = 0; channel < channels; channel++)
+                data[lane++] = image_row(picture, row)[x * channels + channel] << PIXEL_BITS;
+        take_equation(ls, kernels, &ls->x.equation[x], data);
+    }
+    end_strip(ls, kernels, &ls->x);
+    for (int32_t j = 0; j < ls->x.coefficients; j++)
+        for (int32_t row = y, lane = 0; row < end; row++)
+            for (int32_t channel = 0; channel < channels; channel++)
+                ls->coefficients[row * stride + j * channels + channel] = ls->strip[j * LS_LANES + lane++];
+}
+
+/* x * 2^shift, rounded and saturated; -32 < shift < 32. */
+static int32_t shifted(int32_t x, int32_t shift)
+{
+    const int64_t value = shift < 0 ? round_shift(x, -shift) : x * ((int64_t)1 << shift);
+    return (int32_t)clamp_i64(value, -INT32_MAX, INT32_MAX);
+}
+
+/* How far each lane can be shifted up, or must be down, to be largest_data at most. */
+static void choose_shifts(int32_t shift[LS_LANES], const int32_t *column, ptrdiff_t stride, int32_t size, int32_t lanes)
+{
+    int32_t largest[LS_LANES] = {0};
+    for (int32_t y = 0; y < size; y++)
+        for (int32_t lane = 0; lane < lanes; lane++) {
+            const int32_t c = column[y * stride + lane], magnitude = c < 0 ? -c : c;
+            largest[lane] = magnitude > largest[lane] ? magnitude : largest[lane];
+        }
+    for (int32_t lane = 0; lane < lanes; lane++) {
+        shift[lane] = LS_STATE_BITS;
+        while (shifted(largest[lane], shift[lane]) > largest_data)
+            shift[lane]--;
+    }
+}
+
+/* `lanes` columns of coefficients along x -> of both, in place. */
+static void fit_columns(ls_t *ls, const warp_kernels_t *kernels, int32_t *column, ptrdiff_t stride, int32_t lanes)
+{
+    int32_t shift[LS_LANES], data[LS_LANES] = {0};
+    choose_shifts(shift, column, stride, ls->y.knots.size, lanes);
+    begin_strip(ls, &ls->y);
+    for (int32_t y = 0; y < ls->y.knots.size; y++) {
+        for (int32_t lane = 0; lane < lanes; lane++)
+            data[lane] = shifted(column[y * stride + lane], shift[lane]);
+        take_equation(ls, kernels, &ls->y.equation[y], data);
+    }
+    end_strip(ls, kernels, &ls->y);
+    const int32_t surplus = ROW_BITS - LS_STATE_BITS - LS_COEFFICIENT_BITS;
+    for (int32_t j = 0; j < ls->y.coefficients; j++)
+        for (int32_t lane = 0; lane < lanes; lane++)
+            column[j * stride + lane] = shifted(ls->strip[j * LS_LANES + lane], -(surplus + shift[lane]));
+}
+
+ls_surface_t ls_fit(ls_t *ls, const warp_kernels_t *kernels, const image_t *picture, int32_t k_q16)
+{
+    const int32_t channels = (int32_t)picture->format, rows = LS_LANES / channels;
+    ls_axis_update(&ls->x, picture->width, k_q16, ls->weights.x);
+    ls_axis_update(&ls->y, picture->height, k_q16, ls->weights.y);
+    for (int32_t y = 0; y < picture->height; y += rows)
+        fit_rows(ls, kernels, picture, y, y + rows < picture->height ? y + rows : picture->height);
+    const int32_t stride = ls->x.coefficients * channels;
+    for (int32_t lane = 0; lane < stride; lane += LS_LANES)
+        fit_columns(ls, kernels, ls->coefficients + lane, stride, stride - lane < LS_LANES ? stride - lane : LS_LANES);
+    return (ls_surface_t){&ls->x, &ls->y, ls->coefficients};
+}
