@@ -96,10 +96,7 @@ typedef void prefilter_row_fn(uint8_t *restrict out, const int16_t *restrict v, 
 typedef void spline_row_fn(int16_t *restrict out, const int16_t *restrict v, const fir_t *fir, int32_t count,
                            int32_t channels);
 
-enum {
-    LS_LANES = 16,          /**< pictures are fitted in strips of so many rows, or columns, times channels */
-    LS_COEFFICIENT_BITS = 4 /**< of a surface: Q4, up to +-2^27 grey levels */
-};
+enum { LS_LANES = 16 /**< pictures are fitted in strips of so many rows, or columns, times channels */ };
 
 /**
  * Take one equation into the right-hand sides: scale the data, then turn it with each of four rows (ls_axis.h).
@@ -121,14 +118,15 @@ typedef void ls_backward_fn(int32_t *row, const ls_solution_t *solution);
 /** A fitted picture. */
 typedef struct {
     const ls_axis_t *x, *y;
-    const int32_t *coefficients; /**< Q4; rows of x->coefficients times the picture's channels */
+    const int32_t *coefficients; /**< rows of x->coefficients times the picture's channels */
+    int32_t fraction_bits;       /**< of the coefficients, 0 to 4 */
 } ls_surface_t;
 
 /**
  * Evaluate the surface of eq 6 at each point.
  *
- * v = sum_x weight * coefficient for each of four rows, rounded to Q4; out = sum_y weight * v, per channel, rounded
- * half up and clamped to 0..255.
+ * v = sum_x weight * coefficient for each of four rows, rounded to the coefficients' format; out = sum_y weight * v,
+ * per channel, rounded half up and clamped to 0..255.
  *
  * @param[out] out      count pixels of the fitted picture's format.
  * @param      x_q18, y_q18  count points; clamped here to the picture.

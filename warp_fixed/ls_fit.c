@@ -22,7 +22,12 @@
 
 #include "warp_fixed/fixed.h"
 
-enum { PIXEL_BITS = 17, ROW_BITS = PIXEL_BITS - LS_STATE_BITS };
+enum {
+    PIXEL_BITS = 17,
+    ROW_BITS = PIXEL_BITS - LS_STATE_BITS,
+    MOST_FRACTION_BITS = 4,
+    LARGEST_GROWTH = 2600 /* of coefficients over data, along one axis */
+};
 
 static const int32_t largest_data = 255 << PIXEL_BITS;
 
@@ -88,6 +93,20 @@ static void fit_rows(ls_t *ls, const warp_kernels_t *kernels, const image_t *pic
                 ls->coefficients[row * stride + j * channels + channel] = ls->strip[j * LS_LANES + lane++];
 }
 
+/* Bits that leave every coefficient of both axes below 2^31. There are `count` of the rows. */
+static int32_t fraction_bits_for(const int32_t *rows, ptrdiff_t count)
+{
+    int32_t largest = 0;
+    for (ptrdiff_t i = 0; i < count; i++) {
+        const int32_t magnitude = rows[i] < 0 ? -rows[i] : rows[i];
+        largest = magnitude > largest ? magnitude : largest;
+    }
+    int32_t bits = MOST_FRACTION_BITS;
+    while (bits > 0 && (int64_t)largest * LARGEST_GROWTH >= (int64_t)1 << (31 + ROW_BITS - bits))
+        bits--;
+    return bits;
+}
+
 /* x * 2^shift, rounded and saturated; -32 < shift < 32. */
 static int32_t shifted(int32_t x, int32_t shift)
 {
@@ -111,9 +130,16 @@ static void choose_shifts(int32_t shift[LS_LANES], const int32_t *column, ptrdif
     }
 }
 
+/* Of the surface. */
+typedef struct {
+    ptrdiff_t stride;
+    int32_t fraction_bits;
+} format_t;
+
 /* `lanes` columns of coefficients along x -> of both, in place. */
-static void fit_columns(ls_t *ls, const warp_kernels_t *kernels, int32_t *column, ptrdiff_t stride, int32_t lanes)
+static void fit_columns(ls_t *ls, const warp_kernels_t *kernels, int32_t *column, int32_t lanes, const format_t *format)
 {
+    const ptrdiff_t stride = format->stride;
     int32_t shift[LS_LANES], data[LS_LANES] = {0};
     choose_shifts(shift, column, stride, ls->y.knots.size, lanes);
     begin_strip(ls, &ls->y);
@@ -123,7 +149,7 @@ static void fit_columns(ls_t *ls, const warp_kernels_t *kernels, int32_t *column
         take_equation(ls, kernels, &ls->y.equation[y], data);
     }
     end_strip(ls, kernels, &ls->y);
-    const int32_t surplus = ROW_BITS - LS_STATE_BITS - LS_COEFFICIENT_BITS;
+    const int32_t surplus = ROW_BITS - LS_STATE_BITS - format->fraction_bits;
     for (int32_t j = 0; j < ls->y.coefficients; j++)
         for (int32_t lane = 0; lane < lanes; lane++)
             column[j * stride + lane] = shifted(ls->strip[j * LS_LANES + lane], -(surplus + shift[lane]));
@@ -137,7 +163,8 @@ ls_surface_t ls_fit(ls_t *ls, const warp_kernels_t *kernels, const image_t *pict
     for (int32_t y = 0; y < picture->height; y += rows)
         fit_rows(ls, kernels, picture, y, y + rows < picture->height ? y + rows : picture->height);
     const int32_t stride = ls->x.coefficients * channels;
+    const format_t format = {stride, fraction_bits_for(ls->coefficients, (ptrdiff_t)stride * picture->height)};
     for (int32_t lane = 0; lane < stride; lane += LS_LANES)
-        fit_columns(ls, kernels, ls->coefficients + lane, stride, stride - lane < LS_LANES ? stride - lane : LS_LANES);
-    return (ls_surface_t){&ls->x, &ls->y, ls->coefficients};
+        fit_columns(ls, kernels, ls->coefficients + lane, stride - lane < LS_LANES ? stride - lane : LS_LANES, &format);
+    return (ls_surface_t){&ls->x, &ls->y, ls->coefficients, format.fraction_bits};
 }

@@ -38,9 +38,9 @@ void ls_set_weights(ls_t *ls, const ls_weights_t *weights);
  * Per channel of a pixel: 16 products of 32 bits along x and 16 / k along y, and 4 / k + 4 / k^2 to solve; for a new k
  * the axes' solution besides (ls_axis_update()).
  *
- * Formats: pixels and right-hand sides Q17, coefficients along x Q11, along both Q4; the proof that they hold any
- * picture is in the .c file. Coefficients saturate: along x at 2^20 levels, which uniform weights do not reach, and
- * along both at 2^27, which only pictures made for it reach, in the outermost corner and for k below 1.3.
+ * Formats: pixels and right-hand sides Q17, coefficients along x Q11, along both Q4, or less where the picture makes
+ * them large. No picture makes them overflow; weights that differ by much may, and then they saturate: along x at 2^20
+ * levels, along both at 2^31. The proof, and the errors, are in the .c file.
  *
  * @param k_q16  k <= 1 interpolates, k from there to 1.25 counts as 1.25.
  * @return A view into `ls`.

@@ -17,7 +17,7 @@ static inline void evaluate(uint8_t *out, const ls_surface_t *surface, int32_t x
                 row += (int64_t)x.weight[u] * corner[v * stride + u * channels + channel];
             sum += y.weight[v] * round_shift(row, LS_WEIGHT_BITS);
         }
-        out[channel] = (uint8_t)clamp_i64(round_shift(sum, LS_WEIGHT_BITS + LS_COEFFICIENT_BITS), 0, 255);
+        out[channel] = (uint8_t)clamp_i64(round_shift(sum, LS_WEIGHT_BITS + surface->fraction_bits), 0, 255);
     }
 }
 
