@@ -165,10 +165,10 @@ static void check(const deviation_t *d, double k, const image_t *picture, painti
 {
     const double length = fmin(piece_length(&across), piece_length(&down));
     const bool near_guard = length < 1.35, quite_near = length < 1.6;
-    const double inside = near_guard ? 3 : 0.05, edge = near_guard ? 20 : quite_near ? 0.2 : 0.05;
-    const double corner = near_guard ? 150 : quite_near ? 0.5 : 0.05;
+    const double inside = near_guard ? 8 : 0.05, edge = near_guard ? 60 : quite_near ? 0.3 : 0.05;
+    const double corner = near_guard ? 300 : quite_near ? 1 : 0.05;
     if (d->surface[0] > inside || d->surface[1] > edge || d->surface[2] > corner || d->levels[0] > 1 ||
-        d->levels[1] > (near_guard ? 4 : 1) || (!near_guard && d->levels[2] > 1))
+        d->levels[1] > (near_guard ? 4 : 1) || d->levels[2] > (near_guard ? 16 : 1))
         fail_msg("seed %lu, %d x %d, k %f, picture %d: off by %.3f, %.3f, %.3f, in levels %d, %d, %d",
                  (unsigned long)seed, picture->width, picture->height, k, painting, d->surface[0], d->surface[1],
                  d->surface[2], d->levels[0], d->levels[1], d->levels[2]);
