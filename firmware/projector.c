@@ -20,6 +20,7 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
     projector->can_faults = (can_faults_t){.length = 0};
     telemetry_init(&projector->telemetry, projector->picture_us);
     warp_init(&projector->warp, *board->method, board->step_all, board->border);
+    warp_set_ls_weights(&projector->warp, &board->ls_weights);
 }
 
 /* Keep the camera's newest picture; while it has none, the last good one stays. */

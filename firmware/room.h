@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "warp_fixed/homography_from_pose.h"
+#include "warp_fixed/ls_fit.h"
 #include "warp_fixed/method.h"
 #include "warp_fixed/wall_from_corners.h"
 
@@ -19,8 +20,9 @@ typedef struct {
     wall_corners_t corners;      /**< as measured, with the projector's size */
     wall_t wall;                 /**< fitted to them */
     const warp_method_t *method;
-    uint8_t border[3]; /**< R, G, B of unlit pixels */
-    bool step_all;     /**< k over the whole wall instead of over what lands in the picture */
+    uint8_t border[3];       /**< R, G, B of unlit pixels */
+    bool step_all;           /**< k over the whole wall instead of over what lands in the picture */
+    ls_weights_t ls_weights; /**< of the camera's columns and rows; uniform unless stated */
 } room_board_t;
 
 typedef struct {

@@ -11,6 +11,14 @@
 #include "firmware/room/room_scalar.h"
 #include "warp_fixed/image.h"
 
+/* One axis of ls_weights; weight is NULL where it is left out. */
+typedef struct {
+    const double *weight;
+    uint32_t count;
+    int32_t expected;
+    const char *each;
+} weight_list_t;
+
 static const double max_mm = 1e6, max_px = 1e6;
 
 __attribute__((format(printf, 3, 4))) static bool refuse(const room_checker_t *checker, room_key_t key,
@@ -144,21 +152,39 @@ static bool check_markers(const room_checker_t *checker, const room_yaml_board_t
     return true;
 }
 
-/* One axis of the weights: one for each `each` of the picture. */
-static bool check_weights(const room_checker_t *checker, room_key_t key, const double *weight, uint32_t count,
-                          int32_t expected, const char *each)
+/* One axis of the weights: one for each `each` of the picture, stored with the largest as LS_WEIGHT_ONE. */
+static bool check_weights(const room_checker_t *checker, room_key_t key, const weight_list_t *list, uint16_t *stored)
 {
-    if (count != (uint32_t)expected)
-        return refuse(checker, key, "found a list of %u, expected %d: one per picture %s", count, expected, each);
-    bool any = false;
-    for (uint32_t i = 0; i < count; i++) {
-        if (weight[i] < 0.0) {
+    if (list->weight == NULL)
+        return true;
+    if (list->count != (uint32_t)list->expected)
+        return refuse(checker, key, "found a list of %u, expected %d: one per picture %s", list->count, list->expected,
+                      list->each);
+    double largest = 0.0;
+    for (uint32_t i = 0; i < list->count; i++) {
+        if (list->weight[i] < 0.0) {
             const room_key_t at = room_key("%s[%u]", key.text, i);
-            return refuse(checker, at, "found %.12g, expected 0 or more", weight[i]);
+            return refuse(checker, at, "found %.12g, expected 0 or more", list->weight[i]);
         }
-        any = any || weight[i] > 0.0;
+        largest = fmax(largest, list->weight[i]);
     }
-    return any || refuse(checker, key, "found zeros only, expected at least one weight above 0");
+    if (!(largest > 0.0))
+        return refuse(checker, key, "found zeros only, expected at least one weight above 0");
+    for (uint32_t i = 0; i < list->count; i++)
+        stored[i] = (uint16_t)lround(list->weight[i] / largest * LS_WEIGHT_ONE);
+    return true;
+}
+
+static bool check_both_weights(const room_checker_t *checker, const room_yaml_weights_t *yaml, room_t *room, int32_t b)
+{
+    ls_weights_t *stored = &room->board[b].ls_weights;
+    ls_weights_init(stored);
+    if (yaml == NULL)
+        return true;
+    const weight_list_t columns = {yaml->x, yaml->x_count, room->camera.width, "column"};
+    const weight_list_t rows = {yaml->y, yaml->y_count, room->camera.height, "row"};
+    return check_weights(checker, room_key("boards[%d].ls_weights.x", b), &columns, stored->x) &&
+           check_weights(checker, room_key("boards[%d].ls_weights.y", b), &rows, stored->y);
 }
 
 static bool check_method(const room_checker_t *checker, const char *name, room_board_t *board, int32_t b)
@@ -186,10 +212,7 @@ static bool check_look(const room_checker_t *checker, const room_yaml_board_t *y
         board->border[channel] = (uint8_t)yaml->border[channel];
     }
     board->step_all = yaml->step == ROOM_YAML_STEP_ALL;
-    const room_key_t x = room_key("boards[%d].ls_weights.x", b), y = room_key("boards[%d].ls_weights.y", b);
-    const room_yaml_weights_t *weights = yaml->weights;
-    return weights == NULL || (check_weights(checker, x, weights->x, weights->x_count, room->camera.width, "column") &&
-                               check_weights(checker, y, weights->y, weights->y_count, room->camera.height, "row"));
+    return check_both_weights(checker, yaml->weights, room, b);
 }
 
 static bool check_can(const room_checker_t *checker, const room_yaml_can_t *yaml, room_t *room)

@@ -33,8 +33,10 @@ static const cyaml_schema_field_t marker_keys[] = {
 static const cyaml_schema_value_t marker = {CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, room_yaml_marker_t, marker_keys)};
 
 static const cyaml_schema_field_t weights_keys[] = {
-    CYAML_FIELD_SEQUENCE("x", CYAML_FLAG_POINTER, room_yaml_weights_t, x, &number, 1, CYAML_UNLIMITED),
-    CYAML_FIELD_SEQUENCE("y", CYAML_FLAG_POINTER, room_yaml_weights_t, y, &number, 1, CYAML_UNLIMITED),
+    CYAML_FIELD_SEQUENCE("x", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, room_yaml_weights_t, x, &number, 1,
+                         CYAML_UNLIMITED),
+    CYAML_FIELD_SEQUENCE("y", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, room_yaml_weights_t, y, &number, 1,
+                         CYAML_UNLIMITED),
     CYAML_FIELD_END};
 
 static const cyaml_strval_t steps[] = {{.str = "in", .val = ROOM_YAML_STEP_IN},

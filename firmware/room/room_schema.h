@@ -27,7 +27,7 @@ typedef struct {
 } room_yaml_marker_t;
 
 typedef struct {
-    double *x, *y;
+    double *x, *y; /**< NULL where left out */
     uint32_t x_count, y_count;
 } room_yaml_weights_t;
 

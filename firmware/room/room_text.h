@@ -10,7 +10,7 @@
 
 #include "firmware/room/room_report.h"
 
-enum { ROOM_MAX_BYTES = 1 << 20, ROOM_MAX_DEPTH = 16 };
+enum { ROOM_MAX_BYTES = 1 << 23, ROOM_MAX_DEPTH = 16 };
 
 typedef struct {
     unsigned char *bytes; /**< owned */

@@ -155,5 +155,6 @@ bool warp_once(warp_once_t *once, const warp_method_t *method, const image_t *pa
     const uint8_t gray[3] = {luma, luma, luma};
     warp_init(once->warp, method != NULL ? *method : *once->board.method, once->board.step_all,
               picture->format == IMAGE_GRAY8 ? gray : rgb);
+    warp_set_ls_weights(once->warp, &once->board.ls_weights);
     return warp_frame(once->warp, &warp_kernels_scalar, NULL, &once->homography, panel, picture);
 }

@@ -14,7 +14,7 @@
 
 #include "tests/support/scratch.h"
 
-enum { BIG = 1 << 20 };
+enum { BIG = 1 << 23 };
 
 /* Refused with exactly this message after "PATH:", and the room untouched. */
 static void expect_refused(const char *path, const char *message)
@@ -81,7 +81,7 @@ static void test_huge_files_are_refused(void **state)
     assert_non_null(text);
     memset(text, '#', BIG + 1);
     scratch_write(path, text, BIG + 1);
-    expect_refused(path, "1: file: more than 1048576 bytes, expected a room file of at most that");
+    expect_refused(path, "1: file: more than 8388608 bytes, expected a room file of at most that");
     scratch_write(path, text, BIG);
     expect_refused(path, "1: file: empty, expected the keys camera, boards");
     free(text);
