@@ -134,7 +134,8 @@ static void fill(const image_t *picture, uint8_t range, uint32_t seed)
 
 /*
  * How far beyond the picture's colours a method may reach. Half of what the weights' absolute sum exceeds 1 by, which
- * is 1.25^2 for Keys' cubic along two axes; below 7 for filters that ring.
+ * is 1.25^2 for Keys' cubic along two axes; below 7 for filters that ring. Least squares extrapolate over the last half
+ * pixel, where near k = 1.25 any noise fills the range.
  */
 static int32_t overshoot(const warp_method_t *method, int32_t range)
 {
@@ -148,6 +149,8 @@ static int32_t overshoot(const warp_method_t *method, int32_t range)
     case WARP_LINEAR:
     case WARP_AREA:
         return 1;
+    case WARP_LS:
+        return 255;
     case WARP_CUBIC:
     case WARP_MEAN_CUBIC:
         return range * 9 / 32 + 2;

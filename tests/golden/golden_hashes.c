@@ -78,6 +78,19 @@ static void print_frame(const viewpoint_t *viewpoint, const warp_method_t *metho
            report.k_in_q16, report.k_all_q16, report.lit_pixels, made ? "" : " NOT MADE");
 }
 
+/* Least-squares fits: interpolated, at the guard, and far from both. */
+static void print_fits(void)
+{
+    static ls_t ls;
+    const image_t picture = {picture_bytes, PICTURE_WIDTH, PICTURE_HEIGHT, PICTURE_WIDTH * 4, IMAGE_XRGB8888};
+    ls_init(&ls);
+    for (int32_t k_q16 = 1 << 16; k_q16 < 2000000; k_q16 = k_q16 * 3 / 2 + 1) {
+        const ls_surface_t surface = ls_fit(&ls, &warp_kernels_scalar, &picture, k_q16);
+        const size_t count = (size_t)surface.x->coefficients * (size_t)surface.y->coefficients * 4;
+        printf("fit, k %" PRId32 " %016" PRIx64 "\n", k_q16, hash_of(surface.coefficients, count * sizeof(int32_t)));
+    }
+}
+
 int main(void)
 {
     paint();
@@ -94,8 +107,10 @@ int main(void)
             static fir_t fir;
             memset(&fir, 0, sizeof(fir));
             fir_design(&fir, filter, k_q16);
-            printf("filter %d, k %" PRId32 " %016" PRIx64 "\n", (int)filter, k_q16, hash_of(&fir, offsetof(fir_t, offset)));
+            printf("filter %d, k %" PRId32 " %016" PRIx64 "\n", (int)filter, k_q16,
+                   hash_of(&fir, offsetof(fir_t, offset)));
         }
     }
+    print_fits();
     return 0;
 }

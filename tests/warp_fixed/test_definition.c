@@ -159,7 +159,8 @@ static void photographs_keep_the_definition(void **state)
         assert_true(mesh_sample(&mesh, &exact, &picture, 4, error));
         assert_true(mesh_coverage(&mesh) > 0.15);
         for (int m = 0; m < WARP_METHODS; m++)
-            check(&warp_methods[m], &homography, &mesh);
+            if (warp_methods[m].resampler != WARP_LS) /* test_ls_fit.c and test_ls_warp.c do */
+                check(&warp_methods[m], &homography, &mesh);
         mesh_free(&mesh);
     }
     free(picture.data);

@@ -32,7 +32,7 @@ expected_rows() {
         { print $1, $2, original ? $3 : "-", $(3 + original), $(4 + original), $(5 + original), $(6 + original),
                 $(7 + original), $(8 + original), $(9 + original) }' \
         "$scratch/expected_psnr.csv" "$scratch/expected_original.csv" |
-        awk -F'|' '$6 ~ /^(limit|area|mean\+(cubic|spline)|(none|gauss|kaiser|butter)\+(nearest|linear|cubic|spline))$/'
+        awk -F'|' '$6 ~ /^(limit|ls|area|mean\+(cubic|spline)|(none|gauss|kaiser|butter)\+(nearest|linear|cubic|spline))$/'
 }
 
 # One call per room, picture and pose; its rows as "room|image|original|pose|factor|method,psnr,limit,k_in,...".
@@ -72,8 +72,8 @@ test_psnr_tables() {
         }' "$scratch/got" "$scratch/expected" >"$scratch/psnr"
     grep FAIL "$scratch/psnr"
     cat "$scratch/psnr" >>"$results"
-    [ "$(wc -l <"$scratch/psnr")" -eq 380 ]
-    check 'all 380 rows of the tables that this build has methods for' $?
+    [ "$(wc -l <"$scratch/psnr")" -eq 399 ]
+    check 'all 399 rows of the tables that this build has methods for' $?
 }
 
 # Points within 1/256 px and right about inside; depth within 0.01 mm.
@@ -108,7 +108,7 @@ all_methods() {
     for filter in none gauss kaiser butter; do
         printf "$filter+%s " nearest linear cubic spline
     done
-    printf '%s ' area mean+spline mean+cubic
+    printf '%s ' ls area mean+spline mean+cubic
 }
 
 front="$oracle/room_480x270_eq.yaml --board front"
