@@ -5,6 +5,8 @@
 
 #include "sim/study/study_run.h"
 
+study_experiment_fn study_fig05; /**< resampling grids */
+study_experiment_fn study_fig08; /**< figures 8 and 9: how rectangular the viewer sees a rectangle */
 
 /** The table of them all, ended by a row without a name. */
 extern const study_experiment_t study_experiments[];

@@ -3,7 +3,7 @@
 #include "sim/files/gnuplot.h"
 #include "sim/study/study_internal.h"
 
-enum { WIDTH = 600, HEIGHT = 370 };
+enum { WIDTH = 540, HEIGHT = 350 };
 
 static void print_label(const gnuplot_t *plot, const char *what, const char *text, const char *offset)
 {

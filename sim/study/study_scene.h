@@ -29,6 +29,12 @@ void study_scene(study_scene_t *scene, const study_sizes_t *sizes);
 /** The pose 2.5 m from the wall's centre and looking at it, turned about the wall's vertical axis, degrees. */
 pose_t study_pose(double angle_deg);
 
+/**
+ * The same, turned about more axes of the wall through its centre: about x (the wall's horizontal) first, then y, then
+ * z. study_pose(a) is study_pose_turned({0, a, 0}).
+ */
+pose_t study_pose_turned(const double angle_deg[3]);
+
 /** The pictures of the study. */
 typedef enum {
     STUDY_STUDIO,

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// A white rectangle on the study's wall, and how rectangular the viewer sees it.
+#include "sim/study/rectangle_view.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "sim/eval/viewer_picture.h"
+#include "warp_fixed/fixed.h"
+
+static const double share = 0.28;
+static const double one_q30 = 1073741824.0;
+
+/* Memory and maps of one view. */
+typedef struct {
+    const rectangle_view_t *view;
+    double left, top; /* the rectangle begins here, and ends as far from the other edges */
+    homography_t tracked;
+    double_homography_t tracked_exact, eye_exact;
+    image_t picture, panel, seen;
+    warp_t *warp;
+} work_t;
+
+pose_t rectangle_tracked(const pose_t *pose, const tracking_noise_t *noise, study_random_t *random)
+{
+    pose_t tracked = *pose;
+    double turn[3];
+    for (int i = 0; i < 3; i++) {
+        tracked.eye_nm[i] += llround(noise->position_mm * 1e6 * study_random_normal(random));
+        turn[i] = noise->orientation_deg * study_random_normal(random) * 3.14159265358979323846 / 360.0;
+    }
+    /* a small turn (1, turn) about the camera's axes, of unit length within the frame path's tolerance */
+    double q[4];
+    for (int i = 0; i < 4; i++)
+        q[i] = pose->quaternion_q30[i];
+    const double turned[4] = {q[0] - q[1] * turn[0] - q[2] * turn[1] - q[3] * turn[2],
+                              q[1] + q[0] * turn[0] + q[2] * turn[2] - q[3] * turn[1],
+                              q[2] + q[0] * turn[1] + q[3] * turn[0] - q[1] * turn[2],
+                              q[3] + q[0] * turn[2] + q[1] * turn[1] - q[2] * turn[0]};
+    const double length =
+        sqrt(turned[0] * turned[0] + turned[1] * turned[1] + turned[2] * turned[2] + turned[3] * turned[3]);
+    for (int i = 0; i < 4; i++)
+        tracked.quaternion_q30[i] = (int32_t)lround(turned[i] / length * one_q30);
+    return tracked;
+}
+
+static rectangle_point_t map(double rows[3][3], rectangle_point_t point)
+{
+    double value[3];
+    for (int r = 0; r < 3; r++)
+        value[r] = rows[r][0] * point.x + rows[r][1] * point.y + rows[r][2];
+    return (rectangle_point_t){value[0] / value[2], value[1] / value[2]};
+}
+
+/* The inverse of a map, but for a factor. */
+static void invert(double out[3][3], double in[3][3])
+{
+    for (int r = 0; r < 3; r++)
+        for (int k = 0; k < 3; k++) {
+            const int r1 = (k + 1) % 3, r2 = (k + 2) % 3, k1 = (r + 1) % 3, k2 = (r + 2) % 3;
+            out[r][k] = in[r1][k1] * in[r2][k2] - in[r1][k2] * in[r2][k1];
+        }
+}
+
+/*
+ * Where on the panel the firmware puts a picture point: where its grid says that point is. The grid's error there is
+ * that of the projector pixel which the point falls in.
+ */
+static rectangle_point_t put_on_panel(work_t *work, rectangle_point_t point)
+{
+    double picture_from_panel[3][3];
+    const rectangle_point_t exact = map(work->tracked_exact.panel_from_picture, point);
+    const int32_t i = (int32_t)exact.x, j = (int32_t)exact.y;
+    int32_t x_q18, y_q18;
+    if (!grid_point(&work->warp->grid, i, j, &x_q18, &y_q18))
+        return exact;
+    invert(picture_from_panel, work->tracked_exact.panel_from_picture);
+    const rectangle_point_t centre = map(picture_from_panel, (rectangle_point_t){i + 0.5, j + 0.5});
+    return map(work->tracked_exact.panel_from_picture,
+               (rectangle_point_t){point.x - (ldexp(x_q18, -GRID_FRACTION_BITS) - centre.x),
+                                   point.y - (ldexp(y_q18, -GRID_FRACTION_BITS) - centre.y)});
+}
+
+static rectangle_shape_t from_geometry(work_t *work)
+{
+    const double left = work->left, top = work->top, right = work->view->width - left,
+                 bottom = work->view->height - top;
+    rectangle_point_t corner[4] = {{left, top}, {right, top}, {right, bottom}, {left, bottom}};
+    double picture_from_panel[3][3];
+    invert(picture_from_panel, work->eye_exact.panel_from_picture);
+    for (int n = 0; n < 4; n++) {
+        if (work->view->compensated)
+            corner[n] = put_on_panel(work, corner[n]);
+        corner[n] = map(picture_from_panel, corner[n]);
+    }
+    return rectangle_shape(corner);
+}
+
+/* How much of [begin, begin + 1] lies in [from, to]. */
+static double covered(int32_t begin, double from, double to)
+{
+    return fmax(fmin(begin + 1.0, to) - fmax(begin, from), 0.0);
+}
+
+static void draw_rectangle(const work_t *work)
+{
+    const image_t *picture = &work->picture;
+    for (int32_t y = 0; y < picture->height; y++)
+        for (int32_t x = 0; x < picture->width; x++)
+            image_row(picture, y)[x] = (uint8_t)lround(255.0 * covered(x, work->left, picture->width - work->left) *
+                                                       covered(y, work->top, picture->height - work->top));
+}
+
+static bool from_view(const work_t *work, rectangle_shape_t *shape)
+{
+    const viewer_wall_t wall = {work->eye_exact, work->view->compensated ? work->panel : work->picture};
+    rectangle_point_t corner[4];
+    viewer_picture(&work->seen, &wall, 1, work->view->samples);
+    if (!rectangle_find(&work->seen, corner))
+        return false;
+    *shape = rectangle_shape(corner);
+    return true;
+}
+
+static bool measure(work_t *work, rectangle_views_t *views)
+{
+    const rectangle_view_t *view = work->view;
+    const study_sizes_t sizes = {view->width, view->height, view->width, view->height};
+    study_scene_t scene;
+    homography_t eye;
+    study_scene(&scene, &sizes);
+    if (!homography_from_pose(&work->tracked, &scene.camera, &scene.wall, &view->tracked) ||
+        !homography_from_pose(&eye, &scene.camera, &scene.wall, &view->eye))
+        return false;
+    double_homography_from_fixed(&work->tracked_exact, &work->tracked);
+    double_homography_from_fixed(&work->eye_exact, &eye);
+    draw_rectangle(work);
+    study_warp(work->warp, warp_method_default(), &work->tracked, &work->picture, &work->panel);
+    views->geometry = from_geometry(work);
+    return from_view(work, &views->seen);
+}
+
+bool rectangle_view(rectangle_views_t *views, const rectangle_view_t *view)
+{
+    const int32_t width = view->width, height = view->height;
+    const size_t pixels = (size_t)width * (size_t)height;
+    uint8_t *data = malloc(3 * pixels);
+    work_t work = {.view = view,
+                   .left = width * (1.0 - share) / 2.0,
+                   .top = height * (1.0 - share) / 2.0,
+                   .warp = malloc(sizeof *work.warp)};
+    bool made = false;
+    if (data != NULL && work.warp != NULL) {
+        const image_t image = {.data = data, .width = width, .height = height, .stride = width, .format = IMAGE_GRAY8};
+        work.picture = work.panel = work.seen = image;
+        work.panel.data += pixels;
+        work.seen.data += 2 * pixels;
+        made = measure(&work, views);
+    }
+    free(work.warp);
+    free(data);
+    return made;
+}
