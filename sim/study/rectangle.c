@@ -39,8 +39,6 @@ int32_t rectangle_hull(rectangle_point_t *points, rectangle_point_t *spare, int3
     qsort(points, (size_t)count, sizeof *points, by_x_then_y);
     const int32_t half = add_chain(spare, 0, points, count, 1);
     const int32_t size = add_chain(spare, half, points, count, -1);
-    if (size == 0)
-        return 1; /* all in one place */
     memcpy(points, spare, (size_t)size * sizeof *points);
     return size;
 }

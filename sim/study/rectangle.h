@@ -24,8 +24,8 @@ typedef struct {
  * @param[in,out] points  Reordered; the first ones become the hull's corners, in one turn, none on a line between
  * others.
  * @param         spare   Room for 2 * count points.
- * @param         count   1 or more.
- * @return Number of its corners.
+ * @param         count   2 or more.
+ * @return Number of its corners; 2 when all lie on a line.
  */
 int32_t rectangle_hull(rectangle_point_t *points, rectangle_point_t *spare, int32_t count);
 
@@ -47,7 +47,8 @@ rectangle_shape_t rectangle_shape(const rectangle_point_t corner[4]);
  *
  * @param[out] corner  Written only when true is returned: round the quadrilateral, from the one nearest to the top
  * left.
- * @return false when there is none: nothing bright, no four sides, too frayed an edge; or when memory is out.
+ * @return false when there is none: nothing bright, no four sides of 6 pixels or more, too frayed an edge; or when
+ *         memory is out.
  */
 bool rectangle_find(const image_t *picture, rectangle_point_t corner[4]);
 

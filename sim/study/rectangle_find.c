@@ -7,6 +7,7 @@
 
 static const double half_level = 127.5;
 static const double near_px = 3.0;         /* a side's points are so near to its first guess */
+static const double area_share = 0.03;     /* the figure and the quadrilateral differ by less of their area */
 static const double left_out_share = 0.08; /* of a side, at both ends: corners are rounded by the pixels */
 
 enum { REFINEMENTS = 3 };
@@ -109,6 +110,8 @@ typedef struct {
 static bool line_of_side(line_t *line, const edge_t *edge, rectangle_point_t from, rectangle_point_t to)
 {
     const double length = hypot(to.x - from.x, to.y - from.y);
+    if (length < 2.0 * near_px)
+        return false; /* the ragged tip of a figure without four sides */
     double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0, syy = 0.0;
     for (int32_t e = 0; e < edge->count; e++) {
         const double x = edge->point[e].x - from.x, y = edge->point[e].y - from.y;
@@ -154,6 +157,16 @@ static bool refine(rectangle_point_t corner[4], const edge_t *edge)
     return true;
 }
 
+static double area(const rectangle_point_t *polygon, int32_t count)
+{
+    double twice = 0.0;
+    for (int32_t n = 0; n < count; n++) {
+        const rectangle_point_t here = polygon[n], next = polygon[(n + 1) % count];
+        twice += here.x * next.y - here.y * next.x;
+    }
+    return fabs(twice) / 2.0;
+}
+
 static bool fit(rectangle_point_t corner[4], const edge_t *edge, rectangle_point_t *hull, rectangle_point_t *spare)
 {
     for (int32_t e = 0; e < edge->count; e++)
@@ -169,6 +182,8 @@ static bool fit(rectangle_point_t corner[4], const edge_t *edge, rectangle_point
     for (int r = 0; r < REFINEMENTS; r++)
         if (!refine(found, edge))
             return false;
+    if (fabs(area(found, 4) - area(hull, count)) > area_share * area(hull, count))
+        return false;
     int top_left = 0;
     for (int n = 1; n < 4; n++)
         if (found[n].x + found[n].y < found[top_left].x + found[top_left].y)
