@@ -41,7 +41,7 @@ static void shape_is(const rectangle_point_t corner[4], double mean_deg, double 
     for (int turn = 0; turn < 36; turn++) {
         rectangle_point_t moved[4];
         for (int n = 0; n < 4; n++)
-            moved[n] = turned(corner[n].x, corner[n].y, turn * pi / 18.0 + 0.01);
+            moved[(n + turn) % 4] = turned(corner[n].x, corner[n].y, turn * pi / 18.0 + 0.01);
         const rectangle_shape_t shape = rectangle_shape(moved);
         assert_true(fabs(shape.mean_deg - mean_deg) < 1e-5);
         assert_true(fabs(shape.worst_deg - worst_deg) < 1e-5);

@@ -98,7 +98,8 @@ static void page_holds_all_escaped_and_closed(void **state)
     for (size_t n = 0; n < sizeof elements / sizeof *elements; n++)
         assert_int_equal(count_of(page, elements[n][0]), count_of(page, elements[n][1]));
     /* every claim in the list at the top and in its place */
-    const char *sections = strstr(page, "id=\"s1\"");
+    const char *claims = strstr(page, "<div class=\"claims card\">"), *sections = strstr(page, "id=\"s1\"");
+    assert_int_equal(count_of(claims, "<b>A claim</b>"), 2);
     assert_int_equal(count_of(page, "<b>A claim</b>"), 2);
     assert_int_equal(count_of(sections, "<b>A claim</b>"), 1);
     assert_int_equal(count_of(sections, "<b>Another claim</b>"), 1);

@@ -106,6 +106,8 @@ static void turned_poses_look_at_the_centre(void **state)
     const pose_t raised = study_pose_turned((const double[3]){30.0, 0.0, 0.0});
     assert_int_equal(raised.eye_nm[0], 0);
     assert_int_equal(llabs(raised.eye_nm[1]), INT64_C(1250000000));
+    /* X first: a turn about the vertical then keeps the height */
+    assert_int_equal(study_pose_turned((const double[3]){30.0, 50.0, 0.0}).eye_nm[1], raised.eye_nm[1]);
 }
 
 static void straight_on_the_warp_copies(void **state)
