@@ -60,7 +60,8 @@ typedef struct {
     int lines;
 } study_plot_t;
 
-/** Draw a plot with gnuplot. Values that are not finite, and empty fields, leave a gap; no value at all is a failure. */
+/** Draw a plot with gnuplot. Values that are not finite, and empty fields, leave a gap; no value at all is a failure.
+ */
 void study_plot(study_t *study, const study_plot_t *plot);
 
 /** @return A path in the study's folder, for pictures: the caller's buffer, or NULL when it is too long (a failure). */
