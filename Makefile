@@ -61,6 +61,7 @@ $(BUILD)/obj/%.c.o: %.c
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
 
 $(BUILD)/obj/sim/run/page.S.o: sim/run/page.html sim/run/page.js
+$(BUILD)/obj/sim/files/html_style.S.o: sim/files/html_style.css
 $(BUILD)/obj/sim/study/study_files.S.o: sim/study/study_page.html $(wildcard tests/images/*.png)
 $(BUILD)/obj/%.S.o: %.S
 	@mkdir -p $(@D)

@@ -2,12 +2,11 @@
 // The page of a run: a template, and one block of JSON put into it.
 #include "sim/run/page.h"
 
-#include <assert.h>
 #include <inttypes.h>
 #include <math.h>
-#include <string.h>
 
 #include "sim/files/folder.h"
+#include "sim/files/html_template.h"
 
 /* sim/run/page.S */
 extern const char page_template[], page_template_end[], page_script[], page_script_end[];
@@ -155,27 +154,16 @@ static void print_data(FILE *file, const run_summary_t *summary)
     fputs("}\n", file);
 }
 
-/* Write the template from a place in it up to a mark. @return The place behind the mark; NULL when there is none. */
-static const char *print_until(FILE *file, const char *from, const char *mark)
-{
-    const char *found = memmem(from, (size_t)(page_template_end - from), mark, strlen(mark));
-    if (found == NULL)
-        return NULL;
-    fwrite(from, 1, (size_t)(found - from), file);
-    return found + strlen(mark);
-}
-
 bool page_write(const run_summary_t *summary, char error[FILE_ERROR_LENGTH])
 {
     FILE *file = folder_create_file(summary->folder, "index.html", error);
     if (file == NULL)
         return false;
-    const char *rest = print_until(file, page_template, "/*DATA*/");
-    assert(rest != NULL);
+    html_template_t page = html_template_begin(file, page_template, page_template_end);
+    html_template_until(&page, "/*DATA*/");
     print_data(file, summary);
-    rest = print_until(file, rest, "/*SCRIPT*/");
-    assert(rest != NULL);
+    html_template_until(&page, "/*SCRIPT*/");
     fwrite(page_script, 1, (size_t)(page_script_end - page_script), file);
-    fwrite(rest, 1, (size_t)(page_template_end - rest), file);
+    html_template_end(&page);
     return folder_close_file(file, "index.html", error);
 }

@@ -22,7 +22,7 @@ function fillTop() {
   by("title").textContent = (["", "One projector", "Two projectors", "Three projectors", "Four projectors"][walls] || walls + " projectors") + ", one viewer, one undistorted picture";
   const gap = judged.reduce((sum, b) => sum + b.db[1] - b.db[0], 0) / judged.length;
   const slowest = Math.max(...data.boards.map(b => b.ms[0]));
-  const tile = (figure, text) => { const t = put(by("tiles"), "div", null, {class: "tile"}); put(t, "b", figure); put(t, "span", text); };
+  const tile = (figure, text) => { const t = put(by("tiles"), "div", null, {class: "tile card"}); put(t, "b", figure); put(t, "span", text); };
   tile(data.count + " frames", duration.toFixed(1) + " s " + (data.real ? "in real time" : "at " + data.rate_hz + " Hz, in virtual time") +
     ", on " + walls + (walls === 1 ? " board" : " boards"));
   tile(judged.length ? gap.toFixed(2) + " dB" : "not judged", "mean distance from the best that any method can show on these walls");

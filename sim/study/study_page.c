@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of a study: a template, and the parts that grow while experiments run.
-#include <assert.h>
 #include <errno.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "sim/files/folder.h"
+#include "sim/files/html_template.h"
 #include "sim/study/study_internal.h"
 
 /* sim/study/study_files.S */
@@ -187,14 +187,11 @@ void study_claim(study_t *study, study_verdict_t verdict, const char *source, co
     }
 }
 
-/* Write the template from a place in it up to a mark, then the buffer. @return The place behind the mark. */
-static const char *print_part(FILE *file, const char *from, const char *mark, study_buffer_t *buffer)
+/* Write the page up to a mark, and there the buffer. */
+static void print_part(html_template_t *page, const char *mark, const study_buffer_t *buffer)
 {
-    const char *found = memmem(from, (size_t)(study_template_end - from), mark, strlen(mark));
-    assert(found != NULL);
-    fwrite(from, 1, (size_t)(found - from), file);
-    fwrite(buffer->text, 1, buffer->length, file);
-    return found + strlen(mark);
+    html_template_until(page, mark);
+    fwrite(buffer->text, 1, buffer->length, page->file);
 }
 
 void study_page_write(study_t *study)
@@ -214,10 +211,11 @@ void study_page_write(study_t *study)
         study_fail(study, "%s", error);
         return;
     }
-    const char *rest = print_part(file, study_template, "<!--CONTENTS-->", &study->contents);
-    rest = print_part(file, rest, "<!--CLAIMS-->", &study->claims);
-    rest = print_part(file, rest, "<!--SECTIONS-->", &study->sections);
-    fwrite(rest, 1, (size_t)(study_template_end - rest), file);
+    html_template_t page = html_template_begin(file, study_template, study_template_end);
+    print_part(&page, "<!--CONTENTS-->", &study->contents);
+    print_part(&page, "<!--CLAIMS-->", &study->claims);
+    print_part(&page, "<!--SECTIONS-->", &study->sections);
+    html_template_end(&page);
     if (!folder_close_file(file, "index.html", error))
         study_fail(study, "%s", error);
 }
