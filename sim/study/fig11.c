@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The paper's fig 11: PSNR against angle, the picture coarser than the projector.
+#include "sim/study/fig11.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "sim/study/study_mesh_curves.h"
+#include "sim/study/study_mesh_tally.h"
+
+enum { PLACES = 3, NAME_LENGTH = 32, TEXT_LENGTH = 128 };
+
+static const double tolerance_db = 0.02;
+
+static void say_nearest(study_t *study, const study_mesh_sweep_t *sweep, const char *filter)
+{
+    char all[NAME_LENGTH], nearest[NAME_LENGTH], who[TEXT_LENGTH], claim[TEXT_LENGTH];
+    snprintf(all, sizeof all, "%s+*", filter);
+    snprintf(nearest, sizeof nearest, "%s+nearest", filter);
+    snprintf(who, sizeof who, "%s against the filter's best other interpolator", nearest);
+    snprintf(claim, sizeof claim, "With filter %s, nearest is best when the picture is coarser than the projector.",
+             filter);
+    const study_contest_t contest = {.contenders = study_methods(nearest),
+                                     .others = study_methods(all) & ~study_methods(nearest),
+                                     .tolerance_db = tolerance_db};
+    study_tally_claim(study, &(study_contest_words_t){.source = "paper, fig 11", .claim = claim, .who = who}, &contest,
+                      sweep->run, sweep->count);
+}
+
+static void say(study_t *study, const study_mesh_sweep_t *sweep)
+{
+    double largest_k = 0.0;
+    for (int32_t n = 0; n < sweep->count; n++)
+        largest_k = sweep->run[n].found.k_in > largest_k ? sweep->run[n].found.k_in : largest_k;
+    study_text(study,
+               "The largest k of these cases is %.2f. Up to k = 1 nothing needs to be filtered and all filters let the "
+               "picture pass, so there their curves are the same.",
+               largest_k);
+    static const char *const filters[] = {"kaiser", "butter", "gauss"};
+    for (size_t f = 0; f < sizeof filters / sizeof filters[0]; f++)
+        say_nearest(study, sweep, filters[f]);
+    const study_contest_t area = {
+        .contenders = study_methods("area"), .others = study_methods_paper(), .tolerance_db = tolerance_db};
+    study_tally_claim(study,
+                      &(study_contest_words_t){.source = "wallwarp",
+                                               .claim = "area beats nearest, and every other method of the paper, when "
+                                                        "the picture is coarser than the projector.",
+                                               .who = "area against the best method of the paper"},
+                      &area, sweep->run, sweep->count);
+}
+
+void study_fig11(study_t *study)
+{
+    static const study_sizes_t paper = {510, 290, 1920, 1080}, quarter = {128, 72, 480, 270};
+    static const study_image_t image[PLACES] = {STUDY_ASTRONAUT, STUDY_COFFEE, STUDY_STUDIO};
+    study_mesh_case_t place[PLACES];
+    for (int p = 0; p < PLACES; p++)
+        place[p] = (study_mesh_case_t){
+            .sizes = study_quick(study) ? quarter : paper, .image = image[p], .finer = 1, .factor = 16};
+    study_mesh_sweep_t sweep;
+    if (!study_mesh_sweep(&sweep, study, place, PLACES, study_quick(study) ? 10.0 : 5.0))
+        return;
+    char settings[STUDY_MESH_SETTINGS_LENGTH];
+    study_mesh_settings(settings, &sweep);
+    study_section(study, "Fig 11: picture coarser than the projector", settings);
+    study_curves_by_filter(study, "fig11", &sweep);
+    say(study, &sweep);
+    free(sweep.run);
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What must hold of the adaptive family in every room, at every angle, for every picture.
+#ifndef SIM_STUDY_GAP_CONTESTS_H
+#define SIM_STUDY_GAP_CONTESTS_H
+
+#include "sim/study/study_mesh_tally.h"
+
+enum { GAP_CONTESTS = 3 };
+
+/** A figure that must hold: the contest must be won in every case. */
+typedef struct {
+    const char *name; /**< of its row of gap_claims.csv */
+    study_contest_words_t words;
+    study_contest_t contest;
+} gap_contest_t;
+
+/**
+ * area_below_limit: area is at most 0.12 dB below the limit; area_below_paper: and at most 0.02 dB below any method of
+ * the paper, both under the paper's truth. mean_below_best: against the original, the better of mean+cubic and
+ * mean+spline is at most 0.05 dB below the best of all methods.
+ */
+void gap_contests(gap_contest_t contest[GAP_CONTESTS]);
+
+#endif

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mesh evaluation of all methods in one case of the study's room, and in a sweep of cases over the viewing angle.
+#include "sim/study/study_mesh.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "sim/study/study_mesh_tally.h"
+
+static bool fail(char error[FILE_ERROR_LENGTH], const study_mesh_case_t *at, const char *what)
+{
+    snprintf(error, FILE_ERROR_LENGTH, "%s, %d x %d, finer %d, at %g degrees: %.160s", study_image_name(at->image),
+             at->sizes.picture_width, at->sizes.picture_height, at->finer, at->angle_deg, what);
+    return false;
+}
+
+static bool sample_truths(study_mesh_t *mesh, const study_mesh_case_t *at, char error[FILE_ERROR_LENGTH])
+{
+    image_t original = {0};
+    if (!study_image(at->image, at->sizes.picture_width, at->sizes.picture_height, at->finer, &mesh->picture,
+                     at->finer > 1 ? &original : NULL))
+        return fail(error, at, "no such picture, or out of memory");
+    char reason[FILE_ERROR_LENGTH];
+    bool ok = mesh_sample(&mesh->mesh[STUDY_TRUTH_PICTURE], &mesh->exact, &mesh->picture, at->factor, reason);
+    if (ok && at->finer > 1)
+        ok = mesh_sample(&mesh->mesh[STUDY_TRUTH_ORIGINAL], &mesh->exact, &original, at->factor, reason);
+    free(original.data);
+    return ok || fail(error, at, reason);
+}
+
+bool study_mesh_open(study_mesh_t *mesh, const study_mesh_case_t *at, char error[FILE_ERROR_LENGTH])
+{
+    study_scene_t scene;
+    study_scene(&scene, &at->sizes);
+    const pose_t pose = study_pose(at->angle_deg);
+    study_mesh_t made = {0};
+    if (!homography_from_pose(&made.homography, &scene.camera, &scene.wall, &pose))
+        return fail(error, at, "no homography");
+    double_homography_from_fixed(&made.exact, &made.homography);
+    const int32_t width = at->sizes.panel_width, height = at->sizes.panel_height;
+    made.panel = (image_t){.data = malloc((size_t)width * (size_t)height),
+                           .width = width,
+                           .height = height,
+                           .stride = width,
+                           .format = IMAGE_GRAY8};
+    made.warp = malloc(sizeof *made.warp);
+    const bool memory = made.panel.data != NULL && made.warp != NULL;
+    if (!memory || !sample_truths(&made, at, error)) {
+        study_mesh_close(&made);
+        return memory ? false : fail(error, at, "out of memory");
+    }
+    *mesh = made;
+    return true;
+}
+
+void study_mesh_close(study_mesh_t *mesh)
+{
+    for (int truth = 0; truth < STUDY_TRUTHS; truth++)
+        mesh_free(&mesh->mesh[truth]);
+    free(mesh->picture.data);
+    free(mesh->panel.data);
+    free(mesh->warp);
+    *mesh = (study_mesh_t){0};
+}
+
+void study_mesh_warp(study_mesh_t *mesh, int method)
+{
+    study_warp(mesh->warp, &warp_methods[method], &mesh->homography, &mesh->picture, &mesh->panel);
+}
+
+static double psnr_db(const study_mesh_t *mesh, int truth)
+{
+    return mesh->mesh[truth].cell != NULL ? mesh_psnr_db(&mesh->mesh[truth], &mesh->panel) : (double)NAN;
+}
+
+void study_mesh_measure(study_mesh_run_t *run)
+{
+    study_mesh_t mesh;
+    run->error[0] = '\0';
+    if (!study_mesh_open(&mesh, &run->at, run->error))
+        return;
+    const footprint_step_t step = footprint_step(&mesh.homography);
+    study_mesh_result_t *found = &run->found;
+    found->k_in = step.in_q16 / 65536.0;
+    found->k_all = step.all_q16 / 65536.0;
+    found->coverage = mesh_coverage(&mesh.mesh[STUDY_TRUTH_PICTURE]);
+    for (int truth = 0; truth < STUDY_TRUTHS; truth++) {
+        if (mesh.mesh[truth].cell != NULL)
+            mesh_limit(&mesh.mesh[truth], &mesh.panel);
+        found->limit_db[truth] = psnr_db(&mesh, truth);
+    }
+    const study_methods_t measured = study_methods_all();
+    for (int m = 0; m < WARP_METHODS; m++) {
+        const bool is_measured = (measured >> m & 1) != 0;
+        if (is_measured)
+            study_mesh_warp(&mesh, m);
+        for (int truth = 0; truth < STUDY_TRUTHS; truth++)
+            found->psnr_db[truth][m] = is_measured ? psnr_db(&mesh, truth) : (double)NAN;
+    }
+    study_mesh_close(&mesh);
+}
+
+static void measure_one(void *context, int32_t index)
+{
+    study_mesh_run_t *run = context;
+    study_mesh_measure(&run[index]);
+}
+
+bool study_mesh_sweep(study_mesh_sweep_t *sweep, study_t *study, const study_mesh_case_t *place, int32_t places,
+                      double step_deg)
+{
+    const int32_t angles = (int32_t)floor(STUDY_MESH_MAX_ANGLE_DEG / step_deg + 1e-9) + 1, count = places * angles;
+    study_mesh_run_t *run = study_failed(study) ? NULL : calloc((size_t)count, sizeof *run);
+    if (run == NULL) {
+        study_fail(study, "out of memory");
+        return false;
+    }
+    for (int32_t n = 0; n < count; n++) {
+        run[n].at = place[n / angles];
+        run[n].at.angle_deg = n % angles * step_deg;
+    }
+    study_parallel(study, count, measure_one, run);
+    for (int32_t n = 0; n < count; n++)
+        if (run[n].error[0] != '\0')
+            study_fail(study, "%s", run[n].error);
+    if (study_failed(study)) {
+        free(run);
+        return false;
+    }
+    *sweep = (study_mesh_sweep_t){.run = run, .places = places, .angles = angles, .count = count, .step_deg = step_deg};
+    return true;
+}
+
+void study_mesh_settings(char text[STUDY_MESH_SETTINGS_LENGTH], const study_mesh_sweep_t *sweep)
+{
+    size_t used = 0;
+    for (int32_t p = 0; p < sweep->places && used < STUDY_MESH_SETTINGS_LENGTH; p++) {
+        const study_mesh_case_t *at = &sweep->run[p * sweep->angles].at;
+        const study_sizes_t *sizes = &at->sizes;
+        char original[64] = "";
+        if (at->finer > 1)
+            snprintf(original, sizeof original, ", original of %d x %d", sizes->picture_width * at->finer,
+                     sizes->picture_height * at->finer);
+        used += (size_t)snprintf(text + used, STUDY_MESH_SETTINGS_LENGTH - used,
+                                 "%s %d x %d%s on a projector of %d x %d, S = %d; ", study_image_name(at->image),
+                                 sizes->picture_width, sizes->picture_height, original, sizes->panel_width,
+                                 sizes->panel_height, at->factor);
+    }
+    if (used < STUDY_MESH_SETTINGS_LENGTH)
+        snprintf(text + used, STUDY_MESH_SETTINGS_LENGTH - used,
+                 "viewer at 0 to %g degrees in steps of %g; k over pixels in the picture.",
+                 sweep->step_deg * (sweep->angles - 1), sweep->step_deg);
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sets of methods, and how often and by how much one set beats another: what claims are judged by.
+#ifndef SIM_STUDY_STUDY_MESH_TALLY_H
+#define SIM_STUDY_STUDY_MESH_TALLY_H
+
+#include <stdint.h>
+
+#include "sim/study/study_mesh.h"
+
+/** Bit m is method m of warp_methods[]. */
+typedef uint64_t study_methods_t;
+
+/** In a set, beside methods: what no method can beat. */
+static const study_methods_t STUDY_LIMIT = (study_methods_t)1 << 63;
+_Static_assert(WARP_METHODS < 63, "the last bit is the limit's");
+
+/**
+ * Methods whose name matches a shell pattern: "kaiser+*", "ls", "*+nearest". Empty when the build has none.
+ * "auto" only chooses among the others and is in no set.
+ */
+study_methods_t study_methods(const char *pattern);
+
+/** All methods but "auto". */
+study_methods_t study_methods_all(void);
+
+/** Those of the paper: a filter, or none, with an interpolator; and ls. */
+study_methods_t study_methods_paper(void);
+
+/** Those of the paper that it compares: with a filter, but without ls. */
+study_methods_t study_methods_filtered(void);
+
+/** @return The best PSNR of a set's methods, dB; minus infinity for an empty set. */
+double study_best_db(const study_mesh_result_t *found, study_truth_t truth, study_methods_t methods);
+
+/** @return a - b, and 0 for two equal infinities. */
+double study_db_ahead(double a, double b);
+
+/** A contest: is the best of the contenders as good as the best of the others? */
+typedef struct {
+    study_truth_t truth;
+    study_methods_t contenders, others;
+    double tolerance_db;   /**< by which a contender may lose and yet be as good; >= 0 */
+    double from_angle_deg; /**< runs at smaller angles are left out */
+} study_contest_t;
+
+/** Its outcome. Runs in which both sides have no error at all say nothing, and are left out. */
+typedef struct {
+    int32_t cases, wins;
+    double mean_db, worst_db; /**< how far ahead of the others; negative: behind; 0 without cases */
+    int32_t worst;            /**< which run was worst; -1 without cases */
+} study_tally_t;
+
+/** Hold a contest in all runs that have its truth. A side without methods: no cases. */
+study_tally_t study_tally(const study_contest_t *contest, const study_mesh_run_t *run, int32_t runs);
+
+/** @return STUDY_HOLDS when all cases were won, STUDY_FAILS when none was, or there were none. */
+study_verdict_t study_tally_verdict(const study_tally_t *tally);
+
+/** What a claim is about, in the words of the page. */
+typedef struct {
+    const char *source, *claim; /**< as study_claim() takes them */
+    const char *who;            /**< "ls against the best filtered method" */
+} study_contest_words_t;
+
+/** Put a contest on the page as a claim: its verdict, how many cases, mean and worst, and where the worst is. */
+study_tally_t study_tally_claim(study_t *study, const study_contest_words_t *words, const study_contest_t *contest,
+                                const study_mesh_run_t *run, int32_t runs);
+
+#endif
