@@ -2,29 +2,20 @@
 // The paper's fig 11: PSNR against angle, the picture coarser than the projector.
 #include "sim/study/fig11.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "sim/study/study_mesh_curves.h"
 #include "sim/study/study_mesh_tally.h"
 
-enum { PLACES = 3, NAME_LENGTH = 32, TEXT_LENGTH = 128 };
+enum { PLACES = 3 };
 
 static const double tolerance_db = 0.02;
 
-static void say_nearest(study_t *study, const study_mesh_sweep_t *sweep, const char *filter)
+static study_contest_t nearest_of(const char *nearest, const char *filter)
 {
-    char all[NAME_LENGTH], nearest[NAME_LENGTH], who[TEXT_LENGTH], claim[TEXT_LENGTH];
-    snprintf(all, sizeof all, "%s+*", filter);
-    snprintf(nearest, sizeof nearest, "%s+nearest", filter);
-    snprintf(who, sizeof who, "%s against the filter's best other interpolator", nearest);
-    snprintf(claim, sizeof claim, "With filter %s, nearest is best when the picture is coarser than the projector.",
-             filter);
-    const study_contest_t contest = {.contenders = study_methods(nearest),
-                                     .others = study_methods(all) & ~study_methods(nearest),
-                                     .tolerance_db = tolerance_db};
-    study_tally_claim(study, &(study_contest_words_t){.source = "paper, fig 11", .claim = claim, .who = who}, &contest,
-                      sweep->run, sweep->count);
+    return (study_contest_t){.contenders = study_methods(nearest),
+                             .others = study_methods(filter) & ~study_methods(nearest),
+                             .tolerance_db = tolerance_db};
 }
 
 static void say(study_t *study, const study_mesh_sweep_t *sweep)
@@ -36,17 +27,26 @@ static void say(study_t *study, const study_mesh_sweep_t *sweep)
                "The largest k of these cases is %.2f. Up to k = 1 nothing needs to be filtered and all filters let the "
                "picture pass, so there their curves are the same.",
                largest_k);
-    static const char *const filters[] = {"kaiser", "butter", "gauss"};
-    for (size_t f = 0; f < sizeof filters / sizeof filters[0]; f++)
-        say_nearest(study, sweep, filters[f]);
-    const study_contest_t area = {
-        .contenders = study_methods("area"), .others = study_methods_paper(), .tolerance_db = tolerance_db};
-    study_tally_claim(study,
-                      &(study_contest_words_t){.source = "wallwarp",
-                                               .claim = "area beats nearest, and every other method of the paper, when "
-                                                        "the picture is coarser than the projector.",
-                                               .who = "area against the best method of the paper"},
-                      &area, sweep->run, sweep->count);
+    const study_duel_t nearest[] = {
+        {"kaiser+nearest against its filter's best other interpolator", nearest_of("kaiser+nearest", "kaiser+*")},
+        {"butter+nearest", nearest_of("butter+nearest", "butter+*")},
+        {"gauss+nearest", nearest_of("gauss+nearest", "gauss+*")},
+    };
+    study_contest_claim(
+        study,
+        &(study_contest_claim_t){"paper, fig 11",
+                                 "Nearest is best for all filters when the picture is coarser than the projector.",
+                                 nearest, sizeof nearest / sizeof nearest[0]},
+        sweep->run, sweep->count);
+    const study_duel_t area = {
+        "area against the best method of the paper",
+        {.contenders = study_methods("area"), .others = study_methods_paper(), .tolerance_db = tolerance_db}};
+    study_contest_claim(study,
+                        &(study_contest_claim_t){"wallwarp",
+                                                 "area beats nearest, and every other method of the paper, when the "
+                                                 "picture is coarser than the projector.",
+                                                 &area, 1},
+                        sweep->run, sweep->count);
 }
 
 void study_fig11(study_t *study)

@@ -4,24 +4,20 @@
 
 void gap_contests(gap_contest_t contest[GAP_CONTESTS])
 {
+    const study_methods_t area = study_methods("area"), means = study_methods("mean+*");
     contest[0] =
-        (gap_contest_t){.name = "area_below_limit",
-                        .words = {.source = "wallwarp",
-                                  .claim = "Under the paper's truth area is at most 0.12 dB below what is possible.",
-                                  .who = "area against the limit"},
-                        .contest = {STUDY_TRUTH_PICTURE, study_methods("area"), STUDY_LIMIT, .tolerance_db = 0.12}};
-    contest[1] = (gap_contest_t){
-        .name = "area_below_paper",
-        .words = {.source = "wallwarp",
-                  .claim = "Under the paper's truth area is never more than 0.02 dB below any method of the paper.",
-                  .who = "area against the best method of the paper"},
-        .contest = {STUDY_TRUTH_PICTURE, study_methods("area"), study_methods_paper(), .tolerance_db = 0.02}};
+        (gap_contest_t){"area_below_limit",
+                        "Under the paper's truth area is at most 0.12 dB below what is possible.",
+                        {"area against the limit", {STUDY_TRUTH_PICTURE, area, STUDY_LIMIT, .tolerance_db = 0.12}}};
+    contest[1] =
+        (gap_contest_t){"area_below_paper",
+                        "Under the paper's truth area is never more than 0.02 dB below any method of the paper.",
+                        {"area against the best method of the paper",
+                         {STUDY_TRUTH_PICTURE, area, study_methods_paper(), .tolerance_db = 0.02}}};
     contest[2] = (gap_contest_t){
-        .name = "mean_below_best",
-        .words = {.source = "wallwarp",
-                  .claim = "Against a finer original the better of mean+cubic and mean+spline is never more than 0.05 "
-                           "dB below the best of all methods.",
-                  .who = "the better of mean+cubic and mean+spline against the best of all other methods"},
-        .contest = {STUDY_TRUTH_ORIGINAL, study_methods("mean+*"), study_methods_all() & ~study_methods("mean+*"),
-                    .tolerance_db = 0.05}};
+        "mean_below_best",
+        "Against a finer original the better of mean+cubic and mean+spline is never more than 0.05 dB below the best "
+        "of all methods.",
+        {"the better of the two against the best other method",
+         {STUDY_TRUTH_ORIGINAL, means, study_methods_all() & ~means, .tolerance_db = 0.05}}};
 }

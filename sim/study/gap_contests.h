@@ -10,8 +10,8 @@ enum { GAP_CONTESTS = 3 };
 /** A figure that must hold: the contest must be won in every case. */
 typedef struct {
     const char *name; /**< of its row of gap_claims.csv */
-    study_contest_words_t words;
-    study_contest_t contest;
+    const char *claim;
+    study_duel_t duel;
 } gap_contest_t;
 
 /**

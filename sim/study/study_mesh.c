@@ -108,6 +108,15 @@ static void measure_one(void *context, int32_t index)
     study_mesh_measure(&run[index]);
 }
 
+bool study_mesh_measure_all(study_t *study, study_mesh_run_t *run, int32_t runs)
+{
+    study_parallel(study, runs, measure_one, run);
+    for (int32_t n = 0; n < runs; n++)
+        if (run[n].error[0] != '\0')
+            study_fail(study, "%s", run[n].error);
+    return !study_failed(study);
+}
+
 bool study_mesh_sweep(study_mesh_sweep_t *sweep, study_t *study, const study_mesh_case_t *place, int32_t places,
                       double step_deg)
 {
@@ -121,16 +130,21 @@ bool study_mesh_sweep(study_mesh_sweep_t *sweep, study_t *study, const study_mes
         run[n].at = place[n / angles];
         run[n].at.angle_deg = n % angles * step_deg;
     }
-    study_parallel(study, count, measure_one, run);
-    for (int32_t n = 0; n < count; n++)
-        if (run[n].error[0] != '\0')
-            study_fail(study, "%s", run[n].error);
-    if (study_failed(study)) {
+    if (!study_mesh_measure_all(study, run, count)) {
         free(run);
         return false;
     }
     *sweep = (study_mesh_sweep_t){.run = run, .places = places, .angles = angles, .count = count, .step_deg = step_deg};
     return true;
+}
+
+study_mesh_sweep_t study_mesh_places(const study_mesh_sweep_t *sweep, int32_t first, int32_t places)
+{
+    study_mesh_sweep_t part = *sweep;
+    part.run += first * sweep->angles;
+    part.places = places;
+    part.count = places * sweep->angles;
+    return part;
 }
 
 void study_mesh_settings(char text[STUDY_MESH_SETTINGS_LENGTH], const study_mesh_sweep_t *sweep)

@@ -64,6 +64,9 @@ void study_mesh_warp(study_mesh_t *mesh, int method);
 /** Measure all methods in run->at. On failure run->error says why and run->found is untouched. */
 void study_mesh_measure(study_mesh_run_t *run);
 
+/** Measure runs, several at once. @return false after a failure, which the study then knows. */
+bool study_mesh_measure_all(study_t *study, study_mesh_run_t *run, int32_t runs);
+
 enum { STUDY_MESH_MAX_ANGLE_DEG = 70 };
 
 /** Places, each at all angles from 0 to 70 degrees: run[place * angles + angle]. */
@@ -74,7 +77,7 @@ typedef struct {
 } study_mesh_sweep_t;
 
 /**
- * Measure a sweep, several cases at once.
+ * Measure a sweep.
  *
  * @param[out] sweep  Written only when true is returned; sweep->run is the caller's to free().
  * @param      place  Its cases but for the angle.
@@ -82,6 +85,9 @@ typedef struct {
  */
 bool study_mesh_sweep(study_mesh_sweep_t *sweep, study_t *study, const study_mesh_case_t *place, int32_t places,
                       double step_deg);
+
+/** @return Some of a sweep's places, as a sweep whose memory is the other's. */
+study_mesh_sweep_t study_mesh_places(const study_mesh_sweep_t *sweep, int32_t first, int32_t places);
 
 enum { STUDY_MESH_SETTINGS_LENGTH = 1024 };
 

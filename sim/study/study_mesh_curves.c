@@ -62,7 +62,6 @@ void study_curves_plot(study_t *study, const study_curves_t *curves)
                                        .colour = EXTRA_COLOUR,
                                        .dashed = true};
     study_plot(study, &(study_plot_t){.name = curves->svg,
-                                      .title = curves->title,
                                       .x_label = curves->x_label,
                                       .y_label = curves->y_label,
                                       .setup = curves->setup,
@@ -90,7 +89,7 @@ static void plot_filter(study_t *study, const char *experiment, const study_mesh
     static const char *const interpolators[] = {"nearest", "linear", "cubic", "spline"};
     enum { INTERPOLATORS = sizeof interpolators / sizeof interpolators[0], COLUMNS_BEFORE = 5 };
     const char *picture = study_image_name(at->image);
-    char name[INTERPOLATORS][NAME_LENGTH], svg[NAME_LENGTH], csv[NAME_LENGTH], title[2 * NAME_LENGTH];
+    char name[INTERPOLATORS][NAME_LENGTH], svg[NAME_LENGTH], csv[NAME_LENGTH], caption[2 * NAME_LENGTH];
     const char *method[MAX_LINES] = {NULL};
     for (int i = 0; i < INTERPOLATORS; i++) {
         snprintf(name[i], NAME_LENGTH, "%s+%s", filter, interpolators[i]);
@@ -101,14 +100,13 @@ static void plot_filter(study_t *study, const char *experiment, const study_mesh
     method[INTERPOLATORS + 2] = "ls";
     snprintf(svg, sizeof svg, "%s_%s_%s.svg", experiment, picture, filter);
     snprintf(csv, sizeof csv, "%s_%s.csv", experiment, picture);
-    snprintf(title, sizeof title, "%s %d x %d on %d x %d, filter: %s", picture, at->sizes.picture_width,
+    snprintf(caption, sizeof caption, "%s %d x %d on %d x %d, filter: %s", picture, at->sizes.picture_width,
              at->sizes.picture_height, at->sizes.panel_width, at->sizes.panel_height, filter);
     study_curves_plot(study, &(study_curves_t){.svg = svg,
                                                .csv = csv,
-                                               .title = title,
                                                .x_label = "angle of the viewer, degrees",
                                                .y_label = "PSNR, dB",
-                                               .caption = title,
+                                               .caption = caption,
                                                .x = 1,
                                                .before = COLUMNS_BEFORE,
                                                .method = method,

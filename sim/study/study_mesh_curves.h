@@ -21,7 +21,7 @@ void study_curves_print(FILE *csv, const double value[WARP_METHODS]);
 /** One plot with its caption on the page. Methods have their own colours by place in the list; ls is grey. */
 typedef struct {
     const char *svg, *csv;
-    const char *title, *x_label, *y_label, *caption;
+    const char *x_label, *y_label, *caption;
     const char *setup;         /**< as in study_plot_t */
     int x, before;             /**< column of x, from 1; how many columns come before the methods */
     const char *const *method; /**< at most 7 names, NULL at the end; those the build lacks are left out */

@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { SENTENCE_LENGTH = 320, MAX_SENTENCES = 8 };
+
 study_methods_t study_methods(const char *pattern)
 {
     study_methods_t set = 0;
@@ -51,6 +53,7 @@ study_tally_t study_tally(const study_contest_t *contest, const study_mesh_run_t
     if (contest->contenders == 0 || contest->others == 0)
         return tally;
     double sum = 0.0;
+    int32_t finite = 0;
     for (int32_t n = 0; n < runs; n++) {
         const double mine = study_best_db(&run[n].found, contest->truth, contest->contenders);
         const double theirs = study_best_db(&run[n].found, contest->truth, contest->others);
@@ -64,37 +67,53 @@ study_tally_t study_tally(const study_contest_t *contest, const study_mesh_run_t
         }
         tally.cases++;
         tally.wins += ahead >= -contest->tolerance_db;
-        sum += ahead;
+        finite += isfinite(ahead) != 0;
+        sum += isfinite(ahead) ? ahead : 0.0;
     }
-    if (tally.cases > 0)
-        tally.mean_db = sum / tally.cases;
+    if (finite > 0)
+        tally.mean_db = sum / finite;
     return tally;
 }
 
-study_verdict_t study_tally_verdict(const study_tally_t *tally)
+study_verdict_t study_contest_verdict(const study_contest_claim_t *claim, const study_mesh_run_t *run, int32_t runs)
 {
-    if (tally->wins == 0)
+    int32_t cases = 0, wins = 0;
+    for (int d = 0; d < claim->duels; d++) {
+        const study_tally_t tally = study_tally(&claim->duel[d].contest, run, runs);
+        cases += tally.cases;
+        wins += tally.wins;
+    }
+    if (wins == 0)
         return STUDY_FAILS;
-    return tally->wins == tally->cases ? STUDY_HOLDS : STUDY_PARTLY;
+    return wins == cases ? STUDY_HOLDS : STUDY_PARTLY;
 }
 
-study_tally_t study_tally_claim(study_t *study, const study_contest_words_t *words, const study_contest_t *contest,
-                                const study_mesh_run_t *run, int32_t runs)
+/* How a contest ended, or nothing when it had no case. */
+static void say_tally(char text[SENTENCE_LENGTH], const study_duel_t *duel, const study_mesh_run_t *run, int32_t runs)
 {
-    const study_tally_t tally = study_tally(contest, run, runs);
-    if (tally.cases == 0) {
-        study_text(study, "%s: no case to judge.", words->who);
-        return tally;
-    }
+    const study_tally_t tally = study_tally(&duel->contest, run, runs);
+    text[0] = '\0';
+    if (tally.cases == 0)
+        return;
     char tolerance[32] = "";
-    if (contest->tolerance_db > 0)
-        snprintf(tolerance, sizeof tolerance, " to %g dB", contest->tolerance_db);
+    if (duel->contest.tolerance_db > 0)
+        snprintf(tolerance, sizeof tolerance, " to %g dB", duel->contest.tolerance_db);
     const study_mesh_case_t *worst = &run[tally.worst].at;
-    study_claim(study, study_tally_verdict(&tally), words->source, words->claim,
-                "%s: as good%s or better in %d of %d cases (pictures and angles), on average %+.2f dB, at worst "
-                "%+.2f dB (%s %d x %d on %d x %d, %g degrees).",
-                words->who, tolerance, tally.wins, tally.cases, tally.mean_db, tally.worst_db,
-                study_image_name(worst->image), worst->sizes.picture_width, worst->sizes.picture_height,
-                worst->sizes.panel_width, worst->sizes.panel_height, worst->angle_deg);
-    return tally;
+    snprintf(text, SENTENCE_LENGTH,
+             "%s: as good%s or better in %d of %d cases, on average %+.3f dB, at worst %+.3f dB (%s %d x %d on %d x "
+             "%d, %g degrees). ",
+             duel->who, tolerance, tally.wins, tally.cases, tally.mean_db, tally.worst_db,
+             study_image_name(worst->image), worst->sizes.picture_width, worst->sizes.picture_height,
+             worst->sizes.panel_width, worst->sizes.panel_height, worst->angle_deg);
+}
+
+void study_contest_claim(study_t *study, const study_contest_claim_t *claim, const study_mesh_run_t *run, int32_t runs)
+{
+    char text[MAX_SENTENCES * SENTENCE_LENGTH] = "";
+    for (int d = 0; d < claim->duels && d < MAX_SENTENCES; d++)
+        say_tally(text + strlen(text), &claim->duel[d], run, runs);
+    if (text[0] == '\0')
+        study_text(study, "%s There is no case to judge it by.", claim->claim);
+    else
+        study_claim(study, study_contest_verdict(claim, run, runs), claim->source, claim->claim, "%s", text);
 }

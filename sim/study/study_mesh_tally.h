@@ -46,24 +46,34 @@ typedef struct {
 /** Its outcome. Runs in which both sides have no error at all say nothing, and are left out. */
 typedef struct {
     int32_t cases, wins;
-    double mean_db, worst_db; /**< how far ahead of the others; negative: behind; 0 without cases */
-    int32_t worst;            /**< which run was worst; -1 without cases */
+    double mean_db;  /**< how far ahead of the others; negative: behind; over cases where neither is without error */
+    double worst_db; /**< the smallest of all cases; minus infinity when only the others were without error */
+    int32_t worst;   /**< which run that was; -1 without cases */
 } study_tally_t;
 
 /** Hold a contest in all runs that have its truth. A side without methods: no cases. */
 study_tally_t study_tally(const study_contest_t *contest, const study_mesh_run_t *run, int32_t runs);
 
-/** @return STUDY_HOLDS when all cases were won, STUDY_FAILS when none was, or there were none. */
-study_verdict_t study_tally_verdict(const study_tally_t *tally);
+/** One contest of a claim, in the words of the page: "ls against the best filtered method". */
+typedef struct {
+    const char *who;
+    study_contest_t contest;
+} study_duel_t;
 
-/** What a claim is about, in the words of the page. */
+/** A claim that holds when all its contests are won. */
 typedef struct {
     const char *source, *claim; /**< as study_claim() takes them */
-    const char *who;            /**< "ls against the best filtered method" */
-} study_contest_words_t;
+    const study_duel_t *duel;
+    int duels;
+} study_contest_claim_t;
 
-/** Put a contest on the page as a claim: its verdict, how many cases, mean and worst, and where the worst is. */
-study_tally_t study_tally_claim(study_t *study, const study_contest_words_t *words, const study_contest_t *contest,
-                                const study_mesh_run_t *run, int32_t runs);
+/** @return STUDY_HOLDS when all cases of all contests were won, STUDY_FAILS when none was, or there were none. */
+study_verdict_t study_contest_verdict(const study_contest_claim_t *claim, const study_mesh_run_t *run, int32_t runs);
+
+/**
+ * Put a claim on the page: its verdict and, of each contest, how many cases were won, mean and worst, and where the
+ * worst is. Contests without a case are left out; without any there is no claim.
+ */
+void study_contest_claim(study_t *study, const study_contest_claim_t *claim, const study_mesh_run_t *run, int32_t runs);
 
 #endif
