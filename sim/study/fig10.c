@@ -49,6 +49,10 @@ static void say(study_t *study, const study_mesh_sweep_t *photographs)
                             "Least-squares splines give the best results when picture and projector are equally fine.",
                             &splines, 1},
                         photographs->run, photographs->count);
+    study_text(study,
+               "ls has one knot spacing for the whole wall, the k of its worst place, so it smooths the near part "
+               "as the filters do. Just above k = 1, where the fit would be nearly singular, its spacing is 1.25, "
+               "and so it falls off at once as the wall turns.");
     const study_duel_t area = {
         "area against the best method of the paper, ls and unfiltered ones included",
         {.contenders = study_methods("area"), .others = study_methods_paper(), .tolerance_db = 0.02}};

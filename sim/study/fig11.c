@@ -2,6 +2,7 @@
 // The paper's fig 11: PSNR against angle, the picture coarser than the projector.
 #include "sim/study/fig11.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "sim/study/study_mesh_curves.h"
@@ -20,13 +21,21 @@ static study_contest_t nearest_of(const char *nearest, const char *filter)
 
 static void say(study_t *study, const study_mesh_sweep_t *sweep)
 {
-    double largest_k = 0.0;
-    for (int32_t n = 0; n < sweep->count; n++)
-        largest_k = sweep->run[n].found.k_in > largest_k ? sweep->run[n].found.k_in : largest_k;
+    double largest_k = 0.0, lost_k = HUGE_VAL;
+    const study_contest_t nearest_or_not = nearest_of("none+nearest", "none+*");
+    for (int32_t n = 0; n < sweep->count; n++) {
+        const double k = sweep->run[n].found.k_in;
+        const study_tally_t tally = study_tally(&nearest_or_not, &sweep->run[n], 1);
+        largest_k = fmax(largest_k, k);
+        if (tally.wins < tally.cases)
+            lost_k = fmin(lost_k, k);
+    }
     study_text(study,
-               "The largest k of these cases is %.2f. Up to k = 1 nothing needs to be filtered and all filters let the "
-               "picture pass, so there their curves are the same.",
-               largest_k);
+               "The largest k of these cases is %.3f. Up to k = 1 nothing needs to be filtered and all filters let the "
+               "picture pass, so there their curves are the same. The smallest k at which nearest is not the best of "
+               "the plain interpolators is %.3f: it is best as long as projector pixels are clearly smaller than the "
+               "picture's.",
+               largest_k, lost_k);
     const study_duel_t nearest[] = {
         {"kaiser+nearest against its filter's best other interpolator", nearest_of("kaiser+nearest", "kaiser+*")},
         {"butter+nearest", nearest_of("butter+nearest", "butter+*")},

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "sim/study/footprints_bins.h"
+#include "sim/study/footprints_claims.h"
 #include "sim/study/study_mesh_curves.h"
 #include "sim/study/study_mesh_tally.h"
 
@@ -14,8 +15,7 @@ enum { NAME_LENGTH = 64, CAPTION_LENGTH = 128, SETTINGS_LENGTH = 512, COLUMNS_BE
 
 static const double angle_deg = 60.0;
 static const double near_area = 1.0,
-                    far_area = 4.0;    /* magnified below; two pixels and more along an axis, on average */
-static const double best_ratio = 1.02; /* as good as */
+                    far_area = 4.0; /* magnified below; two pixels and more along an axis, on average */
 
 static const char *const truth_name[STUDY_TRUTHS] = {"picture", "original"};
 
@@ -119,18 +119,12 @@ static double rms_between(const footprints_case_t *one, const char *name, double
     return rms_of(&part);
 }
 
-/* Rms errors in the near part of the wall and in the far one, of the methods that claims speak of. */
-enum { PLAIN, GAUSS, KAISER, BUTTER, MEAN, SPOKEN_OF };
-typedef struct {
-    double near[SPOKEN_OF], far[SPOKEN_OF];
-} footprints_parts_t;
-
 static footprints_parts_t parts_of(const footprints_case_t *one)
 {
-    static const char *const name[SPOKEN_OF] = {"none+cubic", "gauss+cubic", "kaiser+cubic", "butter+cubic",
-                                                "mean+cubic"};
+    static const char *const name[FOOTPRINTS_METHODS] = {"none+cubic", "gauss+cubic", "kaiser+cubic", "butter+cubic",
+                                                         "mean+cubic"};
     footprints_parts_t parts;
-    for (int m = 0; m < SPOKEN_OF; m++) {
+    for (int m = 0; m < FOOTPRINTS_METHODS; m++) {
         parts.near[m] = rms_between(one, name[m], 0.0, near_area);
         parts.far[m] = rms_between(one, name[m], far_area, HUGE_VAL);
     }
@@ -145,43 +139,38 @@ static void say_parts(study_t *study, const footprints_case_t *one, const footpr
         "none+cubic %.2f, gauss+cubic %.2f, kaiser+cubic %.2f, butter+cubic %.2f, mean+cubic %.2f. Far part, from "
         "%g on: none+cubic %.2f, gauss+cubic %.2f, kaiser+cubic %.2f, butter+cubic %.2f, mean+cubic %.2f.",
         study_image_name(one->at.image), one->at.sizes.picture_width, one->at.sizes.picture_height,
-        truth_name[one->truth], near_area, parts->near[PLAIN], parts->near[GAUSS], parts->near[KAISER],
-        parts->near[BUTTER], parts->near[MEAN], far_area, parts->far[PLAIN], parts->far[GAUSS], parts->far[KAISER],
-        parts->far[BUTTER], parts->far[MEAN]);
-}
-
-static study_verdict_t verdict_of(int wins, int cases)
-{
-    return wins == cases ? STUDY_HOLDS : wins == 0 ? STUDY_FAILS : STUDY_PARTLY;
+        truth_name[one->truth], near_area, parts->near[FOOTPRINTS_NONE], parts->near[FOOTPRINTS_GAUSS],
+        parts->near[FOOTPRINTS_KAISER], parts->near[FOOTPRINTS_BUTTER], parts->near[FOOTPRINTS_MEAN], far_area,
+        parts->far[FOOTPRINTS_NONE], parts->far[FOOTPRINTS_GAUSS], parts->far[FOOTPRINTS_KAISER],
+        parts->far[FOOTPRINTS_BUTTER], parts->far[FOOTPRINTS_MEAN]);
 }
 
 static void say(study_t *study, const footprints_case_t one[STUDY_TRUTHS])
 {
-    int blurred = 0, aliased = 0, best = 0;
     footprints_parts_t parts[STUDY_TRUTHS];
     for (int truth = 0; truth < STUDY_TRUTHS; truth++) {
-        const footprints_parts_t *p = &parts[truth];
         parts[truth] = parts_of(&one[truth]);
-        say_parts(study, &one[truth], p);
-        blurred += fmin(p->near[GAUSS], fmin(p->near[KAISER], p->near[BUTTER])) > p->near[PLAIN];
-        aliased += p->far[PLAIN] > p->far[GAUSS] && p->far[PLAIN] > p->far[MEAN];
-        best += p->near[MEAN] <= best_ratio * p->near[PLAIN] && p->far[MEAN] < p->far[GAUSS];
+        say_parts(study, &one[truth], &parts[truth]);
     }
+    const footprints_verdicts_t verdicts = footprints_verdicts(parts);
     const footprints_parts_t *p = &parts[STUDY_TRUTH_ORIGINAL];
-    study_claim(
-        study, verdict_of(blurred, STUDY_TRUTHS), "wallwarp", "One cut-off for the whole wall blurs its near part.",
-        "k is that of the largest footprint. Where footprints are below %g nothing needs a filter; against the "
-        "original the error there is %.1f (gauss), %.1f (kaiser) and %.1f times (butter) that of none+cubic.",
-        near_area, p->near[GAUSS] / p->near[PLAIN], p->near[KAISER] / p->near[PLAIN], p->near[BUTTER] / p->near[PLAIN]);
-    study_claim(study, verdict_of(aliased, STUDY_TRUTHS), "wallwarp", "Without a filter the far part aliases.",
+    study_claim(study, verdicts.filters_blur_near, "wallwarp", "One cut-off for the whole wall blurs its near part.",
+                "k is that of the largest footprint. Where footprints are below %g nothing needs a filter; against the "
+                "original the error there is %.1f (gauss), %.1f (kaiser) and %.1f times (butter) that of none+cubic.",
+                near_area, p->near[FOOTPRINTS_GAUSS] / p->near[FOOTPRINTS_NONE],
+                p->near[FOOTPRINTS_KAISER] / p->near[FOOTPRINTS_NONE],
+                p->near[FOOTPRINTS_BUTTER] / p->near[FOOTPRINTS_NONE]);
+    study_claim(study, verdicts.none_aliases_far, "wallwarp", "Without a filter the far part aliases.",
                 "From %g square pixels on, against the original, none+cubic errs %.1f times as much as gauss+cubic and "
                 "%.1f times as much as mean+cubic.",
-                far_area, p->far[PLAIN] / p->far[GAUSS], p->far[PLAIN] / p->far[MEAN]);
-    study_claim(study, verdict_of(best, STUDY_TRUTHS), "wallwarp",
+                far_area, p->far[FOOTPRINTS_NONE] / p->far[FOOTPRINTS_GAUSS],
+                p->far[FOOTPRINTS_NONE] / p->far[FOOTPRINTS_MEAN]);
+    study_claim(study, verdicts.mean_is_best, "wallwarp",
                 "A mean over each pixel's own footprint is as sharp as no filter near, and smoother than a filter far.",
                 "Against the original mean+cubic errs %.2f times as much as none+cubic near, and %.2f times as much as "
                 "gauss+cubic far.",
-                p->near[MEAN] / p->near[PLAIN], p->far[MEAN] / p->far[GAUSS]);
+                p->near[FOOTPRINTS_MEAN] / p->near[FOOTPRINTS_NONE],
+                p->far[FOOTPRINTS_MEAN] / p->far[FOOTPRINTS_GAUSS]);
 }
 
 static void show_settings(study_t *study, const footprints_case_t one[STUDY_TRUTHS])

@@ -21,3 +21,14 @@ void gap_contests(gap_contest_t contest[GAP_CONTESTS])
         {"the better of the two against the best other method",
          {STUDY_TRUTH_ORIGINAL, means, study_methods_all() & ~means, .tolerance_db = 0.05}}};
 }
+
+static bool rewarded(const double ahead_db[STUDY_TRUTHS])
+{
+    return ahead_db[STUDY_TRUTH_PICTURE] > 0 && ahead_db[STUDY_TRUTH_ORIGINAL] < 0;
+}
+
+study_verdict_t gap_rewards_verdict(const gap_rewards_t *rewards)
+{
+    const int rewards_seen = rewarded(rewards->nearest_db) + rewarded(rewards->area_db);
+    return rewards_seen == 2 ? STUDY_HOLDS : rewards_seen == 0 ? STUDY_FAILS : STUDY_PARTLY;
+}

@@ -21,4 +21,13 @@ typedef struct {
  */
 void gap_contests(gap_contest_t contest[GAP_CONTESTS]);
 
+/** How far methods that show the picture's pixels as squares are ahead of smooth ones in room low, dB, by truth. */
+typedef struct {
+    double nearest_db[STUDY_TRUTHS]; /**< none+nearest against none+cubic */
+    double area_db[STUDY_TRUTHS];    /**< area against mean+cubic */
+} gap_rewards_t;
+
+/** @return STUDY_HOLDS when both gain by the picture's truth and lose by the original's, STUDY_FAILS when neither. */
+study_verdict_t gap_rewards_verdict(const gap_rewards_t *rewards);
+
 #endif

@@ -139,6 +139,17 @@ static void figures_that_must_hold_fail_when_numbers_do(void **state)
     flips(2, "area", STUDY_TRUTH_ORIGINAL, 0.05);
 }
 
+static void blocks_are_rewarded_only_by_their_own_truth(void **state)
+{
+    (void)state;
+    gap_rewards_t rewards = {.nearest_db = {0.9, -1.6}, .area_db = {2.7, -1.0}};
+    assert_int_equal(gap_rewards_verdict(&rewards), STUDY_HOLDS);
+    rewards.nearest_db[STUDY_TRUTH_PICTURE] = -0.1;
+    assert_int_equal(gap_rewards_verdict(&rewards), STUDY_PARTLY);
+    rewards.area_db[STUDY_TRUTH_ORIGINAL] = 0.1;
+    assert_int_equal(gap_rewards_verdict(&rewards), STUDY_FAILS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -147,6 +158,7 @@ int main(void)
         cmocka_unit_test(cases_without_error_are_no_contest),
         cmocka_unit_test(the_original_is_judged_where_there_is_one),
         cmocka_unit_test(figures_that_must_hold_fail_when_numbers_do),
+        cmocka_unit_test(blocks_are_rewarded_only_by_their_own_truth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
