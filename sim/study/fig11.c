@@ -31,9 +31,9 @@ static void say(study_t *study, const study_mesh_sweep_t *sweep)
             lost_k = fmin(lost_k, k);
     }
     study_text(study,
-               "The largest k of these cases is %.3f. Up to k = 1 nothing needs to be filtered and all filters let the "
+               "The largest k of these cases is %.4f. Up to k = 1 nothing needs to be filtered and all filters let the "
                "picture pass, so there their curves are the same. The smallest k at which nearest is not the best of "
-               "the plain interpolators is %.3f: it is best as long as projector pixels are clearly smaller than the "
+               "the plain interpolators is %.4f: it is best as long as projector pixels are clearly smaller than the "
                "picture's.",
                largest_k, lost_k);
     const study_duel_t nearest[] = {

@@ -4,7 +4,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "sim/study/footprints_bins.h"
 #include "sim/study/footprints_claims.h"
@@ -14,8 +13,8 @@
 enum { NAME_LENGTH = 64, CAPTION_LENGTH = 128, SETTINGS_LENGTH = 512, COLUMNS_BEFORE = 2 };
 
 static const double angle_deg = 60.0;
-static const double near_area = 1.0,
-                    far_area = 4.0; /* magnified below; two pixels and more along an axis, on average */
+/* Square picture pixels: magnified below the one; from the other on two pixels along an axis, on average. */
+static const double near_area = 1.0, far_area = 4.0;
 
 static const char *const truth_name[STUDY_TRUTHS] = {"picture", "original"};
 

@@ -46,7 +46,8 @@ void study_curves_plot(study_t *study, const study_curves_t *curves)
 {
     study_line_t line[MAX_LINES];
     int lines = 0, colour = 0;
-    for (int n = 0; curves->method[n] != NULL && lines < MAX_LINES - 1; n++) {
+    const int most = curves->extra != NULL ? MAX_LINES - 1 : MAX_LINES;
+    for (int n = 0; curves->method[n] != NULL && lines < most; n++) {
         const char *method = curves->method[n];
         const int column = column_of(method, curves->before);
         const int own = strcmp(method, "ls") == 0 ? LS_COLOUR : colour++;

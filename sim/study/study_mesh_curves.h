@@ -18,13 +18,14 @@ FILE *study_curves_begin(study_t *study, const char *name, const char *first);
 /** End a row with the methods' values. */
 void study_curves_print(FILE *csv, const double value[WARP_METHODS]);
 
-/** One plot with its caption on the page. Methods have their own colours by place in the list; ls is grey. */
+/** One plot with its caption on the page. Methods have their own colours by place in the list; ls is grey.
+    Those that the build lacks are left out. */
 typedef struct {
     const char *svg, *csv;
     const char *x_label, *y_label, *caption;
     const char *setup;         /**< as in study_plot_t */
     int x, before;             /**< column of x, from 1; how many columns come before the methods */
-    const char *const *method; /**< at most 7 names, NULL at the end; those the build lacks are left out */
+    const char *const *method; /**< at most 7 names and ls, or 6 and ls beside extra; NULL at the end */
     const char *extra;         /**< name of one more column, dashed; NULL for none */
     int extra_column;
 } study_curves_t;
