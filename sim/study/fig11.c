@@ -32,10 +32,13 @@ static void say(study_t *study, const study_mesh_sweep_t *sweep)
     }
     study_text(study,
                "The largest k of these cases is %.4f. Up to k = 1 nothing needs to be filtered and all filters let the "
-               "picture pass, so there their curves are the same. The smallest k at which nearest is not the best of "
-               "the plain interpolators is %.4f: it is best as long as projector pixels are clearly smaller than the "
-               "picture's.",
-               largest_k, lost_k);
+               "picture pass, so there their curves are the same.",
+               largest_k);
+    if (isfinite(lost_k))
+        study_text(study,
+                   "The smallest k at which nearest is not the best of the plain interpolators is %.4f: it is best as "
+                   "long as projector pixels are clearly smaller than the picture's.",
+                   lost_k);
     const study_duel_t nearest[] = {
         {"kaiser+nearest against its filter's best other interpolator", nearest_of("kaiser+nearest", "kaiser+*")},
         {"butter+nearest", nearest_of("butter+nearest", "butter+*")},

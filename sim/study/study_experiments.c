@@ -12,10 +12,10 @@ const study_experiment_t study_experiments[] = {
     /* name, function, seconds with --quick, seconds in full */
     {"fig 5", study_fig05, 1, 1},
     {"figs 8 and 9", study_fig08, 2, 60},
-    {"fig 10", study_fig10, 2, 30},
-    {"fig 11", study_fig11, 2, 30},
-    {"larger", study_larger, 1, 10},
-    {"gap", study_gap, 6, 60},
+    {"fig 10", study_fig10, 3, 40},
+    {"fig 11", study_fig11, 2, 35},
+    {"larger", study_larger, 2, 10},
+    {"gap", study_gap, 4, 70},
     {"footprints", study_footprints, 1, 2},
     {0},
 };
