@@ -25,6 +25,18 @@ static int32_t to_q31(int64_t value)
     return (int32_t)clamp_i64(value, -one_q31, one_q31);
 }
 
+/*
+ * The square root of 2^60 <= s < 2^63, rounded: Newton's steps from a line that errs by 11 % at most, so after them by
+ * 0.6 %, 2^-15, 2^-32 and 2^-64.
+ */
+static int64_t root_of(int64_t s)
+{
+    int64_t root = (s >> 32) + (s >> 36) + 910533000;
+    for (int step = 0; step < 4; step++)
+        root = (root + s / root) >> 1;
+    return root;
+}
+
 /* The rotation that turns (x, y) into (r, 0): x >= 0. Scaled up first, so that cos^2 + sin^2 = 1 within 2^-29. */
 static rotation_t rotation_from(int64_t x, int64_t y)
 {
@@ -34,7 +46,7 @@ static rotation_t rotation_from(int64_t x, int64_t y)
         x *= 2;
         y *= 2;
     }
-    const int64_t length = floor_sqrt((uint64_t)(x * x + y * y)); /* of less than 2^63 */
+    const int64_t length = root_of(x * x + y * y);
     return (rotation_t){to_q31(x * ((int64_t)1 << 31) / length), to_q31(y * ((int64_t)1 << 31) / length)};
 }
 

@@ -65,7 +65,7 @@ void ls_axis_init(ls_axis_t *axis);
 /**
  * Solve the axis for a step k. Does nothing when size and knots are those of the last call.
  *
- * Some 1500 instructions per pixel.
+ * Some 1400 instructions per pixel.
  *
  * @param axis    From ls_axis_init(), which must be called again when the weights change.
  * @param size    1 to LS_MAX_SIZE.

@@ -219,6 +219,25 @@ static void nothing_else_is_written(void **state)
     }
 }
 
+/* Only weights far apart make coefficients so large; then they stay at the end of the range. */
+static void coefficients_saturate(void **state)
+{
+    (void)state;
+    const ls_solution_t steep = {.own = 1 << 28, .next = {-(1 << 28), 0, 1 << 28}, .shift = 28};
+    int32_t rows[LS_TAPS][LS_LANES];
+    for (int lane = 0; lane < LS_LANES; lane++) {
+        rows[0][lane] = lane % 2 == 0 ? INT32_MAX : -INT32_MAX;
+        rows[1][lane] = -rows[0][lane];
+        rows[2][lane] = 5;
+        rows[3][lane] = lane;
+    }
+    warp_kernels_scalar.ls_backward(rows[0], &steep);
+    for (int lane = 0; lane < LS_LANES; lane++) {
+        assert_int_equal(rows[0][lane], lane % 2 == 0 ? INT32_MAX : -INT32_MAX);
+        assert_int_equal(rows[3][lane], lane);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -230,6 +249,7 @@ int main(void)
         cmocka_unit_test(fits_do_not_depend_on_earlier_ones),
         cmocka_unit_test(other_weights_take_effect),
         cmocka_unit_test(nothing_else_is_written),
+        cmocka_unit_test(coefficients_saturate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
