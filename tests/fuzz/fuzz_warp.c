@@ -154,9 +154,12 @@ static int32_t overshoot(const warp_method_t *method, int32_t range)
     case WARP_CUBIC:
     case WARP_MEAN_CUBIC:
         return range * 9 / 32 + 2;
-    default:
-        return 3 * range + 2;
+    case WARP_SPLINE:
+    case WARP_MEAN_SPLINE:
+    case WARP_AUTO:
+        break;
     }
+    return 3 * range + 2;
 }
 
 static void check_guards(const image_t *image)
