@@ -51,7 +51,7 @@ static void add_row(ls_oracle_t *o, int first, const double row[4], double weigh
 {
     for (int t = 0; t < 4; t++)
         for (int u = t; u < 4; u++)
-            o->band[first + t][u - t] += (long double)weight * (long double)(row[t] * row[u]);
+            o->band[first + t][u - t] += (long double)weight * (long double)row[t] * (long double)row[u];
 }
 
 /* L D L^T in place: band[j][0] = D, band[j][u] = L of row j + u. */
@@ -95,7 +95,7 @@ void ls_oracle_fit(const ls_oracle_t *o, double *coefficients, int coefficient_s
         double row[4];
         const int first = ls_oracle_basis(o, i + 0.5, row);
         for (int t = 0; t < 4; t++)
-            c[first + t] += (long double)o->weight[i] * (long double)(row[t] * data[i * data_stride]);
+            c[first + t] += (long double)o->weight[i] * (long double)row[t] * (long double)data[i * data_stride];
     }
     for (int j = 0; j < o->coefficients; j++)
         for (int t = 1; t < 4 && j + t < o->coefficients; t++)
