@@ -7,7 +7,7 @@
 /* Below this share of its rows' lengths, a determinant is rounding error. */
 static const double least_determinant = 1e-13;
 
-static double double_from_real(real_t real)
+double double_from_real(real_t real)
 {
     return ldexp((double)real.mantissa, real.exponent);
 }

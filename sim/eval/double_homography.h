@@ -32,4 +32,7 @@ typedef struct {
  */
 void double_homography_from_fixed(double_homography_t *out, const homography_t *homography);
 
+/** @return The number, rounded to double. */
+double double_from_real(real_t real);
+
 #endif
