@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// A built-in test picture: discs of all sizes, each before the ones drawn earlier, like fallen leaves.
+#include "sim/eval/leaves_picture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "sim/study/study_random.h"
+
+/* Radii in pixels of the picture; how often the leaves would cover it, laid side by side. */
+static const double least_radius = 0.5;
+static const double layers = 6.0;
+enum { DARKEST = 16, BRIGHTEST = 235 };
+
+/* The pixel centres between two points of an axis of n pixels: [*begin, *end). */
+static void between(double low, double high, int32_t n, int32_t *begin, int32_t *end)
+{
+    *begin = (int32_t)fmin(fmax(ceil(low - 0.5), 0.0), n);
+    *end = (int32_t)fmin(fmax(ceil(high - 0.5), *begin), n);
+}
+
+static void draw_leaf(const image_t *image, double x, double y, double radius, uint8_t gray)
+{
+    int32_t top, bottom;
+    between(y - radius, y + radius, image->height, &top, &bottom);
+    for (int32_t row = top; row < bottom; row++) {
+        const double away = row + 0.5 - y;
+        const double half = sqrt(fmax(radius * radius - away * away, 0.0));
+        int32_t begin, end;
+        between(x - half, x + half, image->width, &begin, &end);
+        memset(image_row(image, row) + begin, gray, (size_t)(end - begin));
+    }
+}
+
+static void draw_leaves(const image_t *original, double finer)
+{
+    const double least = least_radius * finer, most = 0.5 * fmax(original->width, original->height) + least;
+    const double shape = 1.0 - pow(least / most, 1.5);
+    const double mean_area = acos(-1.0) * 3.0 * least * least * (sqrt(most / least) - 1.0) / shape;
+    const double count = layers * original->width * original->height / mean_area + 100.0;
+    study_random_t random = {1};
+    for (double n = 0.0; n < count; n += 1.0) {
+        const double radius = least / pow(1.0 - study_random_unit(&random) * shape, 2.0 / 3.0);
+        const double x = study_random_unit(&random) * original->width,
+                     y = study_random_unit(&random) * original->height;
+        const double gray = DARKEST + study_random_unit(&random) * (BRIGHTEST - DARKEST);
+        draw_leaf(original, x, y, radius, (uint8_t)gray);
+    }
+}
+
+static void take_means(const image_t *picture, const image_t *original, int32_t finer)
+{
+    const int32_t area = finer * finer;
+    for (int32_t y = 0; y < picture->height; y++)
+        for (int32_t x = 0; x < picture->width; x++) {
+            int32_t sum = 0;
+            for (int32_t n = 0; n < area; n++)
+                sum += image_row(original, y * finer + n / finer)[x * finer + n % finer];
+            image_row(picture, y)[x] = (uint8_t)((2 * sum + area) / (2 * area));
+        }
+}
+
+static image_t gray_image(int32_t width, int32_t height)
+{
+    return (image_t){.data = calloc((size_t)height, (size_t)width),
+                     .width = width,
+                     .height = height,
+                     .stride = width,
+                     .format = IMAGE_GRAY8};
+}
+
+bool leaves_picture(int32_t width, int32_t height, int32_t finer, image_t *picture, image_t *original)
+{
+    const image_t fine = gray_image(width * finer, height * finer), coarse = gray_image(width, height);
+    if (fine.data == NULL || coarse.data == NULL) {
+        free(fine.data);
+        free(coarse.data);
+        return false;
+    }
+    memset(fine.data, (DARKEST + BRIGHTEST) / 2, (size_t)fine.width * (size_t)fine.height);
+    draw_leaves(&fine, finer);
+    take_means(&coarse, &fine, finer);
+    *picture = coarse;
+    *original = fine;
+    return true;
+}
