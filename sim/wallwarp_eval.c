@@ -3,6 +3,7 @@
 #include <argp.h>
 #include <string.h>
 
+#include "sim/eval/eval_advise.h"
 #include "sim/eval/eval_grid.h"
 #include "sim/eval/eval_psnr.h"
 #include "sim/eval/eval_study.h"
@@ -22,6 +23,7 @@ static command_t *command_named(const char *name)
         {"grid", "wallwarp-eval grid", eval_grid},
         {"psnr", "wallwarp-eval psnr", eval_psnr},
         {"study", "wallwarp-eval study", eval_study},
+        {"advise", "wallwarp-eval advise", eval_advise},
     };
     for (size_t c = 0; c < sizeof commands / sizeof *commands; c++)
         if (strcmp(commands[c].name, name) == 0)
@@ -41,12 +43,12 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     case ARGP_KEY_ARG:
         chosen->command = command_named(argument);
         if (chosen->command == NULL)
-            argp_error(state, "'%s' is no command, expected grid, psnr or study", argument);
+            argp_error(state, "'%s' is no command, expected grid, psnr, study or advise", argument);
         chosen->at = state->next - 1;
         state->next = state->argc; /* the rest is the command's */
         return 0;
     case ARGP_KEY_NO_ARGS:
-        argp_error(state, "a command is missing, expected grid, psnr or study");
+        argp_error(state, "a command is missing, expected grid, psnr, study or advise");
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
@@ -57,11 +59,12 @@ int main(int argc, char **argv)
 {
     static const struct argp argp = {
         .parser = parse,
-        .args_doc = "grid ROOM ...\npsnr ROOM ...\nstudy --out DIR",
+        .args_doc = "grid ROOM ...\npsnr ROOM ...\nstudy --out DIR\nadvise ROOM",
         .doc = "Measure the grid and the quality of the methods.\v"
-               "grid   where projector pixels fall in the viewer's picture\n"
-               "psnr   how well each method's wall matches the picture\n"
-               "study  the paper's figures again, on one page\n\n"
+               "grid    where projector pixels fall in the viewer's picture\n"
+               "psnr    how well each method's walls match the picture\n"
+               "study   the paper's figures again, on one page\n"
+               "advise  which method suits each wall of a room\n\n"
                "'wallwarp-eval COMMAND --help' tells more. Exit status: 0 done, 1 failed, 2 bad usage.",
     };
     argp_err_exit_status = PROGRAM_BAD_USAGE;
