@@ -254,6 +254,7 @@ void study_gap(study_t *study)
             show_curves(study, &room, r, (study_truth_t)truth);
     }
     write_cases(study, &sweep);
+    study_data(study, "gap_cases.csv", "Every case of this section, with all figures of every method:");
     show_table(study, &sweep, STUDY_TRUTH_PICTURE);
     show_table(study, &sweep, STUDY_TRUTH_ORIGINAL);
     const study_mesh_sweep_t low = of_room(&sweep, 1);

@@ -79,6 +79,9 @@ void study_figure(study_t *study, const char *picture, const char *csv, const ch
 /** Show a small CSV file as a table. */
 void study_table(study_t *study, const char *csv, const char *caption);
 
+/** Offer a CSV file that is too long to show. */
+void study_data(study_t *study, const char *csv, const char *caption);
+
 typedef enum { STUDY_HOLDS, STUDY_FAILS, STUDY_PARTLY } study_verdict_t;
 
 /**

@@ -159,6 +159,17 @@ void study_table(study_t *study, const char *csv, const char *caption)
     fclose(from);
 }
 
+void study_data(study_t *study, const char *csv, const char *caption)
+{
+    if (study_failed(study))
+        return;
+    end_figures(study);
+    FILE *file = study->sections.file;
+    print_element(file, "<p class=\"note\">", caption, "");
+    print_link(file, csv);
+    fputs("</p>\n", file);
+}
+
 void study_claim(study_t *study, study_verdict_t verdict, const char *source, const char *claim, const char *format,
                  ...)
 {

@@ -57,6 +57,7 @@ static void say_everything(study_t *study)
     study_figure(study, "a.svg", "a.csv", "One \"figure\"");
     study_figure(study, "b.svg", NULL, "Another");
     study_table(study, "table.csv", "A table");
+    study_data(study, "table.csv", "The same & more:");
     study_claim(study, STUDY_PARTLY, "paper, fig 1", "A claim", "because %d", 5);
     study_section(study, "Second", "none");
     study_claim(study, STUDY_FAILS, "wallwarp", "Another claim", "no");
@@ -83,6 +84,7 @@ static void page_holds_all_escaped_and_closed(void **state)
         "<a href=\"a.csv\">a.csv</a>",
         "<tr><th>name&lt;1&gt;</th><th>value</th></tr>",
         "<tr><td>a&amp;b</td><td>1</td></tr>",
+        "The same &amp; more: <a href=\"table.csv\">table.csv</a></p>",
         "<p>because 5</p>",
         "holds in part",
         "does not hold",
