@@ -4,16 +4,17 @@
 
 #include <math.h>
 
-static double along_axis(const pixel_profile_t *profile, double from_middle)
+/* Light from the panel's edge to x: 1 for each whole pixel. */
+static double light_to(const pixel_profile_t *profile, double x)
 {
-    if (fabs(from_middle) > profile->fill / 2)
-        return 0.0;
-    return (1.0 + profile->falloff * cos(2.0 * M_PI * from_middle / profile->fill)) / profile->fill;
+    const double from_middle = (x - floor(x) - 0.5) / profile->fill; /* lit from -1/2 to 1/2 */
+    const double in = fmin(fmax(from_middle, -0.5), 0.5);
+    return floor(x) + 0.5 + in + profile->falloff * sin(2.0 * M_PI * in) / (2.0 * M_PI);
 }
 
-double pixel_profile(const pixel_profile_t *profile, double x, double y)
+double pixel_profile_mean(const pixel_profile_t *profile, double from, double to)
 {
-    return along_axis(profile, x - 0.5) * along_axis(profile, y - 0.5);
+    return (light_to(profile, to) - light_to(profile, from)) / (to - from);
 }
 
 static double dot(const double a[3], const double b[3])

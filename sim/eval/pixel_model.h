@@ -24,8 +24,13 @@ typedef struct {
     pixel_screen_t screen;
 } pixel_model_t;
 
-/** @return Light at a point of the pixel, (0, 0) to (1, 1). */
-double pixel_profile(const pixel_profile_t *profile, double x, double y);
+/**
+ * The mean light from one place to another along one axis; both axes' means multiply.
+ *
+ * @param from  Panel pixels, pixel i from i to i + 1.
+ * @param to    The same; more than from.
+ */
+double pixel_profile_mean(const pixel_profile_t *profile, double from, double to);
 
 /** @return Light towards the eye from a point of the wall, all in metres. @param normal  Of any length, either side. */
 double pixel_screen_gain(const pixel_screen_t *screen, const double point_m[3], const double normal[3],

@@ -15,6 +15,7 @@ typedef struct {
     const pixel_model_t *model;
     double_wall_t wall;
     double normal[3];
+    double sample_px; /* of the picture */
 } trace_t;
 
 static void normal_of(const double_wall_t *wall, int32_t width, int32_t height, double normal[3])
@@ -31,6 +32,16 @@ static void normal_of(const double_wall_t *wall, int32_t width, int32_t height, 
         normal[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
+/* Light over the sample's own width on the panel, so that the gaps between pixels do not beat with the samples. */
+static double profile_along(const trace_t *trace, int axis, const double p[3])
+{
+    const double(*rows)[3] = trace->homography->panel_from_picture;
+    const double at = p[axis] / p[2];
+    const double half =
+        0.5 * trace->sample_px / p[2] * hypot(rows[axis][0] - at * rows[2][0], rows[axis][1] - at * rows[2][1]);
+    return pixel_profile_mean(&trace->model->profile, at - half, at + half);
+}
+
 static pixel_sample_t trace_sample(const trace_t *trace, double x, double y)
 {
     static const pixel_sample_t no_wall = {PIXEL_VIEW_NO_WALL, 0, 0.0F, 0.0F};
@@ -44,7 +55,7 @@ static pixel_sample_t trace_sample(const trace_t *trace, double x, double y)
     if (!(u >= 0.0 && v >= 0.0 && u < h->panel_width && v < h->panel_height))
         return no_wall;
     double_wall_point(&trace->wall, (const double[2]){u, v}, point_m);
-    const double profile = pixel_profile(&trace->model->profile, u - floor(u), v - floor(v));
+    const double profile = profile_along(trace, 0, p) * profile_along(trace, 1, p);
     const double gain = pixel_screen_gain(&trace->model->screen, point_m, trace->normal, trace->eye_m);
     return (pixel_sample_t){(uint16_t)u, (uint16_t)v, (float)profile, (float)gain};
 }
@@ -60,7 +71,7 @@ bool pixel_view(pixel_view_t *view, const double_homography_t *homography, const
         pixel_view_free(&made);
         return false;
     }
-    trace_t trace = {.homography = homography, .eye_m = eye_m, .model = model};
+    trace_t trace = {.homography = homography, .eye_m = eye_m, .model = model, .sample_px = 1.0 / factor};
     double_wall(&trace.wall, wall);
     normal_of(&trace.wall, wall->panel_width, wall->panel_height, trace.normal);
     pixel_sample_t *sample = made.sample;

@@ -173,16 +173,17 @@ static void begin_section(const experiment_t *experiment)
              experiment->photographs > 1 ? ", astronaut and coffee, means over the three" : "", intensity_exponent,
              -intensity_projector_m[2], -intensity_projector_m[1]);
     study_section(experiment->study, "Beyond the paper: uneven pixels and a shining wall", settings);
-    study_text(experiment->study,
-               "The paper draws each projector pixel as an even square on a matt wall, and says that its model can be "
-               "extended. Here a pixel's light has a shape (its mean over the pixel stays 1), and the wall throws more "
-               "light one way than another. Gray levels stand for light, as in the paper. The eye adapts: light is "
-               "divided by the wall's mean gain. PSNR is taken against the true picture on the same wall, so that it "
-               "compares pictures and not brightness (uneven_db in the CSV: against a true picture on an even wall; a "
-               "hot spot then costs every method the same 20 dB). It is taken twice: after a blur as wide as a picture "
-               "pixel, for an eye that does not make out single pixels; and sample by sample, as in the paper, which "
-               "counts each pixel's own shape as an error. Where pixels become larger than the picture's, at strong "
-               "angles, their shape shows through the blur.");
+    study_text(
+        experiment->study,
+        "The paper draws each projector pixel as an even square on a matt wall, and says that its model can be "
+        "extended. Here a pixel's light has a shape (its mean over the pixel stays 1), and the wall throws more "
+        "light one way than another. Gray levels stand for light, as in the paper. The eye adapts: light is "
+        "divided by the wall's mean gain. PSNR is taken against the true picture on the same wall, so that it "
+        "compares pictures and not brightness (uneven_db in the CSV: against a true picture on an even wall; a "
+        "hot spot then outweighs all that the methods differ in). It is taken twice: after a blur as wide as a picture "
+        "pixel, for an eye that does not make out single pixels; and sample by sample, as in the paper, which "
+        "counts each pixel's own shape as an error. Where pixels become larger than the picture's, at strong "
+        "angles, their shape shows through the blur.");
 }
 
 static void claim(const experiment_t *experiment)
