@@ -44,7 +44,7 @@ static bool prepare(experiment_t *experiment)
     experiment->frames = quick ? 6 : 16;
     experiment->photographs = quick ? 1 : PHOTOGRAPHS;
     for (int32_t m = 0; m < WARP_METHODS; m++)
-        if (strcmp(warp_methods[m].name, "auto") != 0)
+        if (warp_methods[m].resampler != WARP_AUTO)
             experiment->method[experiment->methods++] = &warp_methods[m];
     for (int32_t size = 0; size < SIZES; size++) {
         const study_sizes_t *full = &setting[size].size;

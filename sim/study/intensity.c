@@ -33,9 +33,9 @@ static bool prepare(experiment_t *experiment)
     experiment->angles = quick ? 3 : MAX_ANGLES;
     experiment->photographs = quick ? 1 : PHOTOGRAPHS;
     for (int32_t m = 0; m < WARP_METHODS; m++) {
-        if (strcmp(warp_methods[m].name, "auto") == 0)
+        if (warp_methods[m].resampler == WARP_AUTO)
             continue;
-        if (strcmp(warp_methods[m].name, "mean+cubic") == 0)
+        if (&warp_methods[m] == warp_method_default())
             experiment->default_method = experiment->methods;
         experiment->method[experiment->methods++] = &warp_methods[m];
     }
