@@ -16,6 +16,9 @@ typedef struct {
 
 extern const double flicker_walk_bob_hz, flicker_walk_yaw_hz;
 
+/** Turn a viewer's head. @param rotation_rad  Axis, in the camera frame, times angle. */
+void flicker_walk_turn(pose_t *pose, const double rotation_rad[3]);
+
 /** @return Where the viewer is at a time, before a wall whose rows run along the world's x and columns along y. */
 pose_t flicker_walk_pose(const flicker_walk_t *walk, double time_s);
 

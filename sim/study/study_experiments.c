@@ -19,5 +19,6 @@ const study_experiment_t study_experiments[] = {
     {"footprints", study_footprints, 1, 2},
     {"moving viewer", study_flicker, 4, 110},
     {"uneven light", study_intensity, 1, 15},
+    {"latency", study_latency, 2, 6},
     {0},
 };
