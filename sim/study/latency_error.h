@@ -22,7 +22,7 @@ typedef struct {
     int64_t points;
 } latency_error_t;
 
-enum { LATENCY_POINTS_X = 24, LATENCY_POINTS_Y = 14 };
+enum { LATENCY_POINTS_X = 16, LATENCY_POINTS_Y = 9 };
 
 /**
  * Add one frame, over a raster of points of the eye's view that see content on the wall.
