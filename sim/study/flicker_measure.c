@@ -2,7 +2,6 @@
 // How steady and how sharp a moving viewer sees a picture that should stand still.
 #include "sim/study/flicker_measure.h"
 
-#include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 
@@ -62,10 +61,10 @@ void flicker_add_sharpness(flicker_sums_t *sums, const image_t *seen, const imag
 
 double flicker_level(const flicker_sums_t *sums)
 {
-    return sums->pixels > 0 ? (double)sums->change / (double)sums->pixels : (double)NAN;
+    return (double)sums->change / (double)sums->pixels;
 }
 
 double flicker_sharpness(const flicker_sums_t *sums)
 {
-    return sums->ideal > 0 ? (double)sums->seen / (double)sums->ideal : (double)NAN;
+    return (double)sums->seen / (double)sums->ideal;
 }

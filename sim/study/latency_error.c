@@ -100,10 +100,10 @@ void latency_error_add(latency_error_t *error, const study_scene_t *scene, const
 
 double latency_mean_px(const latency_error_t *error)
 {
-    return error->points > 0 ? error->px / (double)error->points : (double)NAN;
+    return error->px / (double)error->points;
 }
 
 double latency_mean_deg(const latency_error_t *error)
 {
-    return error->points > 0 ? error->deg / (double)error->points : (double)NAN;
+    return error->deg / (double)error->points;
 }

@@ -153,6 +153,32 @@ static void gaps_cost_what_their_light_says(void **state)
     assert_true(psnr.eye > 60.0); /* each pixel's mean is right, and that is all that the eye sees */
 }
 
+/* One column is 16 too bright: over half pixels 16 16, which the blur makes 1 5 10 10 5 1. */
+static void eye_blurs_as_described(void **state)
+{
+    (void)state;
+    bench_t bench;
+    bench_at(&bench, 0.0);
+    memset(bench.picture, 100, PIXELS);
+    for (int n = 0; n < PIXELS; n++)
+        bench.panel[n] = n % WIDTH == 9 ? 116 : 100;
+    const double square = 1 + 25 + 100 + 100 + 25 + 1;
+    assert_true(fabs(psnr_of(&bench, &ideal).eye - 10.0 * log10(255.0 * 255.0 * (2 * WIDTH - 4) / square)) < 1e-6);
+}
+
+/* All is 10 too bright. What is beside the wall must not count as right. */
+static void only_covered_places_count(void **state)
+{
+    (void)state;
+    bench_t bench;
+    bench_at(&bench, 50.0);
+    memset(bench.picture, 100, PIXELS);
+    memset(bench.panel, 110, PIXELS);
+    const pixel_psnr_t psnr = psnr_of(&bench, &ideal);
+    const double expected_db = 10.0 * log10(255.0 * 255.0 / 100.0);
+    assert_true(fabs(psnr.eye - expected_db) < 1e-6 && fabs(psnr.fine - expected_db) < 1e-6);
+}
+
 static void shine_is_forgiven_except_against_an_even_wall(void **state)
 {
     (void)state;
@@ -219,6 +245,8 @@ int main(void)
         cmocka_unit_test(lobe_is_where_a_mirror_throws_it),
         cmocka_unit_test(ideal_pixels_are_the_mesh_evaluation),
         cmocka_unit_test(gaps_cost_what_their_light_says),
+        cmocka_unit_test(eye_blurs_as_described),
+        cmocka_unit_test(only_covered_places_count),
         cmocka_unit_test(shine_is_forgiven_except_against_an_even_wall),
         cmocka_unit_test(nothing_covered_is_infinite),
         cmocka_unit_test(view_projects_where_the_homography_says),

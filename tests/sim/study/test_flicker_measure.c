@@ -170,6 +170,28 @@ static void mask_is_what_the_wall_covers(void **state)
         }
 }
 
+/* A wall that stands on its corner: a square's four corners decide, one at a time. */
+static void mask_needs_all_corners(void **state)
+{
+    (void)state;
+    enum { SIZE = 20 };
+    const homography_t fixed =
+        homography_of((const double[9]){1, -1, 10, 1, 1, 2.3, 0, 0, 1}, (homography_sizes_t){8, 8, SIZE, SIZE});
+    double_homography_t homography;
+    double_homography_from_fixed(&homography, &fixed);
+    uint8_t mask[SIZE * SIZE];
+    memset(mask, 1, sizeof mask);
+    flicker_mask(mask, &homography, 0.0);
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++) {
+            /* |x - 10| + |y - 10.3| <= 8 */
+            const double across = fmax(fabs(x - 10.0), fabs(x + 1 - 10.0));
+            const double down = fmax(fabs(y - 10.3), fabs(y + 1 - 10.3));
+            if (mask[y * SIZE + x] != (across + down <= 8.0))
+                fail_msg("pixel %d, %d: mask %d", x, y, mask[y * SIZE + x]);
+        }
+}
+
 static void mask_leaves_out_the_edge_of_the_picture(void **state)
 {
     (void)state;
@@ -200,6 +222,7 @@ int main(void)
         cmocka_unit_test(aliases_are_not_sharp),
         cmocka_unit_test(gradients_need_both_neighbours),
         cmocka_unit_test(mask_is_what_the_wall_covers),
+        cmocka_unit_test(mask_needs_all_corners),
         cmocka_unit_test(mask_leaves_out_the_edge_of_the_picture),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

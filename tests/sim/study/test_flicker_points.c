@@ -62,6 +62,9 @@ static void beating_one_member_is_not_beating_the_family(void **state)
     assert_ptr_equal(area.worst, &of);
     assert_string_equal(area.victor->name, "none+cubic");
     assert_string_equal(area.victim->name, "area");
+    of.point[0] = (flicker_point_t){"none+cubic", 0.65, 2.2}; /* beats mean+cubic, not area: that is steadier */
+    assert_int_equal(flicker_defeats_of_family(&of, 1).defeats, 0);
+    assert_int_equal(flicker_defeats_of(&of, 1, "mean+cubic").defeats, 1);
 }
 
 static void worst_defeat_is_found_among_cases(void **state)

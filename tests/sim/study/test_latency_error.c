@@ -92,6 +92,8 @@ static void wall_out_of_view_is_no_number(void **state)
     assert_int_equal(error.points, 0);
     assert_true(isnan(latency_mean_px(&error)));
     assert_true(isnan(latency_mean_deg(&error)));
+    const pose_t facing = study_pose(0.0);
+    assert_int_equal(error_of(&facing, &facing, &away, 1.0).points, 0);
 }
 
 static void turning_keeps_place_and_length(void **state)
@@ -150,6 +152,30 @@ static void errors_grow_with_latency_and_vanish_without(void **state)
     }
 }
 
+static void each_choice_of_poses_is_exact_for_its_content(void **state)
+{
+    (void)state;
+    study_scene_t scene;
+    study_scene(&scene, &full_hd);
+    /* what is drawn on the wall needs the picture's own pose; what is far away, only its orientation */
+    assert_true(latency_late_error(&scene, LATENCY_ONE_POSE, 0.05, 0.0).worst_px < 1e-2);
+    assert_true(latency_late_error(&scene, LATENCY_ONE_POSE_WALKING, 0.05, 0.0).worst_px < 1e-2);
+    assert_true(latency_late_error(&scene, LATENCY_ONE_TURN, 0.05, INFINITY).worst_px < 1e-2);
+    const latency_error_t trap = latency_late_error(&scene, LATENCY_TRAP, 0.05, INFINITY);
+    assert_true(trap.worst_deg > 9.0 && trap.worst_deg < 10.0); /* at most 198 degrees a second */
+}
+
+static void noise_of_one_pose_for_both_hardly_shows(void **state)
+{
+    (void)state;
+    study_scene_t scene;
+    study_scene(&scene, &full_hd);
+    const latency_error_t alone = latency_noise_error(&scene, false, 0.0, 1.0, 2.5);
+    const latency_error_t both = latency_noise_error(&scene, true, 0.0, 1.0, 2.5);
+    assert_true(latency_mean_px(&alone) > 10.0);
+    assert_true(both.worst_px < 1e-2);
+}
+
 static void noise_is_the_same_draw_scaled(void **state)
 {
     (void)state;
@@ -176,6 +202,8 @@ int main(void)
         cmocka_unit_test(yaw_is_about_the_camera_s_y_axis),
         cmocka_unit_test(walk_goes_along_the_wall),
         cmocka_unit_test(errors_grow_with_latency_and_vanish_without),
+        cmocka_unit_test(each_choice_of_poses_is_exact_for_its_content),
+        cmocka_unit_test(noise_of_one_pose_for_both_hardly_shows),
         cmocka_unit_test(noise_is_the_same_draw_scaled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
