@@ -124,14 +124,15 @@ static void write_points(const experiment_t *experiment)
     study_csv_end(experiment->study, csv);
 }
 
-/* The marks of one colour: the family's, or the others'. */
-static void write_marks(study_t *study, const char *name, const flicker_case_t *mean, bool family)
+/* The family's marks have a column of their own, for their colour. */
+static void write_marks(study_t *study, const char *name, const flicker_case_t *mean)
 {
-    FILE *csv = study_csv_begin(study, name, "method,sharpness,flicker_levels");
+    FILE *csv = study_csv_begin(study, name, "method,sharpness,others_levels,family_levels");
     for (int32_t m = 0; csv != NULL && m < mean->points; m++) {
         const flicker_point_t *point = &mean->point[m];
-        if (flicker_in_family(point->name) == family)
-            fprintf(csv, "%s,%.4f,%.4f\n", point->name, point->sharpness, point->flicker);
+        const bool family = flicker_in_family(point->name);
+        fprintf(csv, "%s,%.4f,%s%.4f%s\n", point->name, point->sharpness, family ? "," : "", point->flicker,
+                family ? "" : ",");
     }
     study_csv_end(study, csv);
 }
@@ -141,15 +142,13 @@ static void draw(const experiment_t *experiment, int32_t plot)
     const char *size = setting[plot / ANGLES].name;
     const double angle = angle_deg[plot % ANGLES];
     const flicker_case_t *mean = &experiment->mean[plot];
-    char family[NAME_LENGTH], others[NAME_LENGTH], svg[NAME_LENGTH], setup[FLICKER_SETUP_LENGTH];
-    snprintf(family, sizeof family, "flicker_%s_%g_family.csv", size, angle);
-    snprintf(others, sizeof others, "flicker_%s_%g_others.csv", size, angle);
+    char marks[NAME_LENGTH], svg[NAME_LENGTH], setup[FLICKER_SETUP_LENGTH];
+    snprintf(marks, sizeof marks, "flicker_%s_%g.csv", size, angle);
     snprintf(svg, sizeof svg, "flicker_%s_%g.svg", size, angle);
-    write_marks(experiment->study, family, mean, true);
-    write_marks(experiment->study, others, mean, false);
+    write_marks(experiment->study, marks, mean);
     const flicker_axes_t axes = flicker_axes(mean);
     flicker_labels(setup, &axes, mean);
-    const study_line_t line[] = {{others, 2, 3, NULL, 0, false, true}, {family, 2, 3, NULL, 2, false, true}};
+    const study_line_t line[] = {{marks, 2, 3, NULL, 0, false, true}, {marks, 2, 4, NULL, 2, false, true}};
     study_plot(experiment->study, &(study_plot_t){.name = svg,
                                                   .x_label = "sharpness, 1 = ideal",
                                                   .y_label = "flicker, gray levels",
@@ -158,7 +157,7 @@ static void draw(const experiment_t *experiment, int32_t plot)
                                                   .height = axes.height,
                                                   .line = line,
                                                   .lines = 2});
-    study_figure(experiment->study, svg, "flicker.csv", mean->text);
+    study_figure(experiment->study, svg, marks, mean->text);
 }
 
 static void begin_section(const experiment_t *experiment)
@@ -181,7 +180,10 @@ static void begin_section(const experiment_t *experiment)
                "of what the eye sees from frame to frame, in its own picture. Sharpness is the part of the ideal "
                "picture's gradient that arrives in what it sees, as a regression: aliases, noise and the edges of "
                "pixels do not follow the ideal gradient and so count for nothing. A good method is far right and low; "
-               "blur alone moves left and down.");
+               "blur alone moves left and down. area is made for another truth, the picture as squares: where a "
+               "footprint is as large as a picture pixel it takes one of them or the mean of two by where it lies, a "
+               "blur that comes and goes. Where the picture is smaller than the projector nothing is filtered, and "
+               "methods of one interpolator are the same.");
 }
 
 /* Say how a claim fares, with its worst case. */
@@ -226,6 +228,7 @@ static void show(experiment_t *experiment)
     begin_section(experiment);
     for (int32_t plot = 0; plot < PLOTS; plot++)
         draw(experiment, plot);
+    study_data(experiment->study, "flicker.csv", "Every picture by itself:");
     claims(experiment);
 }
 

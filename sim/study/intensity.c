@@ -226,8 +226,8 @@ static void show(const experiment_t *experiment)
                  "Sample by sample: the shape of the projector's pixels counts as error");
     study_table(experiment->study, "intensity_order.csv",
                 "Pairs of methods that keep the order they have with ideal pixels, and the best of them as the eye "
-                "sees it. The limit is that of the paper: each pixel's mean of the picture. All figures: "
-                "intensity.csv");
+                "sees it. The limit is that of the paper: each pixel's mean of the picture.");
+    study_data(experiment->study, "intensity.csv", "Every method, model, angle and picture:");
     claim(experiment);
 }
 

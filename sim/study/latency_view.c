@@ -2,6 +2,7 @@
 // What the eye sees of a wall that was corrected for another pose, against the picture.
 #include "sim/study/latency_view.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,7 +44,10 @@ static bool bench_open(bench_t *bench, const study_scene_t *scene)
 
 static void see(const bench_t *bench, const image_t *picture, const image_t *seen)
 {
-    study_warp(bench->warp, warp_method_default(), &bench->made_for, picture, &bench->wall.shown);
+    const bool made =
+        warp_frame(bench->warp, &warp_kernels_scalar, NULL, &bench->made_for, &bench->wall.shown, picture);
+    assert(made);
+    (void)made;
     viewer_picture(seen, &bench->wall, 1, LOOKS);
 }
 
@@ -63,6 +67,7 @@ static void add_squares(latency_square_t *sum, const bench_t *bench, const image
 bool latency_view_add(latency_square_t *sum, const study_scene_t *scene, const image_t *picture,
                       const pose_t *corrected, const pose_t *eye)
 {
+    static const uint8_t black[3] = {0, 0, 0};
     bench_t bench;
     homography_t seen_from;
     const bool made = bench_open(&bench, scene) &&
@@ -70,6 +75,7 @@ bool latency_view_add(latency_square_t *sum, const study_scene_t *scene, const i
                       homography_from_pose(&seen_from, &scene->camera, &scene->wall, eye);
     if (made) {
         double_homography_from_fixed(&bench.wall.homography, &seen_from);
+        warp_init(bench.warp, *warp_method_default(), false, black);
         see(&bench, &bench.white, &bench.lit);
         see(&bench, picture, &bench.seen);
         add_squares(sum, &bench, picture);

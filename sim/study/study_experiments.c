@@ -17,8 +17,8 @@ const study_experiment_t study_experiments[] = {
     {"larger", study_larger, 2, 10},
     {"gap", study_gap, 4, 70},
     {"footprints", study_footprints, 1, 2},
-    {"moving viewer", study_flicker, 4, 110},
-    {"uneven light", study_intensity, 1, 15},
-    {"latency", study_latency, 2, 6},
+    {"moving viewer", study_flicker, 3, 64},
+    {"uneven light", study_intensity, 3, 40},
+    {"latency", study_latency, 3, 7},
     {0},
 };

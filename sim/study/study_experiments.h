@@ -5,8 +5,8 @@
 
 #include "sim/study/study_run.h"
 
-study_experiment_fn study_fig05; /**< resampling grids */
-study_experiment_fn study_fig08; /**< figures 8 and 9: how rectangular the viewer sees a rectangle */
+study_experiment_fn study_fig05;     /**< resampling grids */
+study_experiment_fn study_fig08;     /**< figures 8 and 9: how rectangular the viewer sees a rectangle */
 study_experiment_fn study_flicker;   /**< a moving viewer: flicker and sharpness */
 study_experiment_fn study_intensity; /**< beyond the paper: uneven pixels, walls that shine */
 study_experiment_fn study_latency;   /**< beyond the paper: old and noisy poses */
