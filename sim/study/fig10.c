@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The paper's fig 10: PSNR against angle, the picture as fine as the projector.
-#include "sim/study/fig10.h"
-
 #include <stdlib.h>
 
+#include "sim/study/study_experiments.h"
 #include "sim/study/study_mesh_curves.h"
 #include "sim/study/study_mesh_tally.h"
 
@@ -77,7 +76,7 @@ void study_fig10(study_t *study)
         return;
     char settings[STUDY_MESH_SETTINGS_LENGTH];
     study_mesh_settings(settings, &sweep);
-    study_section(study, "Fig 10: picture as fine as the projector", settings);
+    study_section(study, "Figure 10: picture as fine as the projector", settings);
     study_curves_by_filter(study, "fig10", &sweep);
     const study_mesh_sweep_t photographs = study_mesh_places(&sweep, 0, PHOTOGRAPHS);
     const study_mesh_sweep_t noise = study_mesh_places(&sweep, PHOTOGRAPHS, 1);

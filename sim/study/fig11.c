@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The paper's fig 11: PSNR against angle, the picture coarser than the projector.
-#include "sim/study/fig11.h"
-
 #include <math.h>
 #include <stdlib.h>
 
+#include "sim/study/study_experiments.h"
 #include "sim/study/study_mesh_curves.h"
 #include "sim/study/study_mesh_tally.h"
 
@@ -74,7 +73,7 @@ void study_fig11(study_t *study)
         return;
     char settings[STUDY_MESH_SETTINGS_LENGTH];
     study_mesh_settings(settings, &sweep);
-    study_section(study, "Fig 11: picture coarser than the projector", settings);
+    study_section(study, "Figure 11: picture coarser than the projector", settings);
     study_curves_by_filter(study, "fig11", &sweep);
     say(study, &sweep);
     free(sweep.run);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where in the picture the gap to the limit comes from: squared error by the projector pixels' footprint area.
-#include "sim/study/footprints.h"
-
 #include <math.h>
 #include <stdlib.h>
 
 #include "sim/study/footprints_bins.h"
 #include "sim/study/footprints_claims.h"
+#include "sim/study/study_experiments.h"
 #include "sim/study/study_mesh_curves.h"
 #include "sim/study/study_mesh_tally.h"
 

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far every method is below the limit, under the paper's truth and against a finer original.
-#include "sim/study/gap.h"
-
+//
+// Three rooms: eq, low, gt, their picture as fine as the projector, coarser, finer. Files:
+// gap_ROOM_TRUTH.csv   the mean gap over the pictures by angle, a column for each method
+// gap_cases.csv        every case: PSNR of the limit and of each method
+// gap_table_TRUTH.csv  mean and worst gap of each method
+// gap_claims.csv       a row for each room and figure of gap_contests.h: it holds when cases = wins
+// gap_samples.csv      one case with more and more samples
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "sim/study/gap_contests.h"
+#include "sim/study/study_experiments.h"
 #include "sim/study/study_mesh_curves.h"
 
 enum { ROOMS = 3, MAX_PLACES = 5, QUICK_PLACES = 3, NAME_LENGTH = 64, CAPTION_LENGTH = 128 };

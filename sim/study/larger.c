@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The paper's third case: PSNR against angle, the picture finer than the projector.
-#include "sim/study/larger.h"
-
 #include <stdlib.h>
 
+#include "sim/study/study_experiments.h"
 #include "sim/study/study_mesh_curves.h"
 #include "sim/study/study_mesh_tally.h"
 

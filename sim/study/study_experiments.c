@@ -2,12 +2,6 @@
 // The experiments of the study, in the order of its page: one line each.
 #include "sim/study/study_experiments.h"
 
-#include "sim/study/fig10.h"
-#include "sim/study/fig11.h"
-#include "sim/study/footprints.h"
-#include "sim/study/gap.h"
-#include "sim/study/larger.h"
-
 const study_experiment_t study_experiments[] = {
     /* name, function, seconds with --quick, seconds in full */
     {"fig 5", study_fig05, 1, 1},
