@@ -20,7 +20,7 @@ static void widen(double range[2], double least, double part)
 
 flicker_axes_t flicker_axes(const flicker_case_t *of)
 {
-    flicker_axes_t axes = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}, 680, 440};
+    flicker_axes_t axes = {{HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, -HUGE_VAL}, 680, 440};
     for (int32_t n = 0; n < of->points; n++) {
         axes.sharpness[0] = fmin(axes.sharpness[0], of->point[n].sharpness);
         axes.sharpness[1] = fmax(axes.sharpness[1], of->point[n].sharpness);

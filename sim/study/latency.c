@@ -18,7 +18,7 @@ static const study_sizes_t full_hd = {1920, 1080, 1920, 1080};
 
 /* Content as far behind the wall as the viewer is before it, and at the ends of what there is. */
 enum { ON_WALL, BEHIND, FAR, CONTENTS };
-static const double content_m[CONTENTS] = {0.0, 2.5, INFINITY};
+static const double content_m[CONTENTS] = {0.0, 2.5, HUGE_VAL};
 
 typedef struct {
     study_t *study;

@@ -48,7 +48,7 @@ static void moved_eye_moves_the_picture(void **state)
     assert_true(wall_late.worst_deg < 24.0 / 1200 * 180 / M_PI + 1e-3);
     assert_true(wall_late.worst_deg > 0.99 * 24.0 / 1200 * 180 / M_PI);
     /* the same for any content: the picture is the eye's own */
-    const latency_error_t far = error_of(&here, &there, &here, INFINITY);
+    const latency_error_t far = error_of(&here, &there, &here, HUGE_VAL);
     assert_true(fabs(latency_mean_px(&far) - 24.0) < 1e-3);
 }
 
@@ -61,7 +61,7 @@ static void content_moves_by_its_parallax(void **state)
     here.eye_nm[0] += 50000000;
     const struct {
         double content_m, px;
-    } expected[] = {{0.0, 0.0}, {2.5, 12.0}, {7.5, 18.0}, {INFINITY, 24.0}};
+    } expected[] = {{0.0, 0.0}, {2.5, 12.0}, {7.5, 18.0}, {HUGE_VAL, 24.0}};
     for (int n = 0; n < 4; n++) {
         const latency_error_t error = error_of(&there, &there, &here, expected[n].content_m);
         if (fabs(latency_mean_px(&error) - expected[n].px) > 1e-3)
@@ -76,10 +76,10 @@ static void turned_head_turns_the_world_when_the_wall_follows_it(void **state)
     const pose_t before = study_pose(0.0);
     pose_t now = before;
     flicker_walk_turn(&now, (const double[3]){0.0, 10.0 * M_PI / 180.0, 0.0});
-    const latency_error_t trap = error_of(&before, &now, &now, INFINITY);
+    const latency_error_t trap = error_of(&before, &now, &now, HUGE_VAL);
     assert_true(trap.worst_deg < 10.0 + 1e-4); /* at the horizon; less above and below it */
     assert_true(latency_mean_deg(&trap) > 9.0);
-    const latency_error_t one_pose = error_of(&before, &before, &now, INFINITY);
+    const latency_error_t one_pose = error_of(&before, &before, &now, HUGE_VAL);
     assert_true(one_pose.points > 0 && one_pose.worst_px < 1e-3);
 }
 
@@ -160,8 +160,8 @@ static void each_choice_of_poses_is_exact_for_its_content(void **state)
     /* what is drawn on the wall needs the picture's own pose; what is far away, only its orientation */
     assert_true(latency_late_error(&scene, LATENCY_ONE_POSE, 0.05, 0.0).worst_px < 1e-2);
     assert_true(latency_late_error(&scene, LATENCY_ONE_POSE_WALKING, 0.05, 0.0).worst_px < 1e-2);
-    assert_true(latency_late_error(&scene, LATENCY_ONE_TURN, 0.05, INFINITY).worst_px < 1e-2);
-    const latency_error_t trap = latency_late_error(&scene, LATENCY_TRAP, 0.05, INFINITY);
+    assert_true(latency_late_error(&scene, LATENCY_ONE_TURN, 0.05, HUGE_VAL).worst_px < 1e-2);
+    const latency_error_t trap = latency_late_error(&scene, LATENCY_TRAP, 0.05, HUGE_VAL);
     assert_true(trap.worst_deg > 9.0 && trap.worst_deg < 10.0); /* at most 198 degrees a second */
 }
 
