@@ -3,7 +3,7 @@
 //
 // Pixel i gives the equation sqrt(w_i / h) * (sum_j B_j(site i) c_j = pixel i), h being the pieces' length. Givens
 // rotations turn these, one after the other, into a band R c = z of width 4: orthogonal, so nothing grows, and errors
-// are enlarged by the condition of R alone. (That of the normal equations is its square: 2.4e5 near k = 1.25.) The
+// are enlarged by the condition of R alone. (That of the normal equations is its square: 1.6e6 at k = 1.25.) The
 // rotations and R depend on size, knots and weights only, and are kept. An axis of fewer than 4 pixels has equations
 // to spare: differences of the coefficients, of order `size`, are 0.
 #ifndef WARP_FIXED_LS_AXIS_H

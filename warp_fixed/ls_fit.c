@@ -5,12 +5,12 @@
 // since w_i <= 1 and N / h <= 4096 pieces. Rotations keep norms, so no right-hand side nor any value on its way exceeds
 // 64 P. With P = 255 * 2^17 that is 2^31 * 255 / 256; the rest is room for the rounding of 8 products in each of 4096
 // equations. (Without weights it is 2.3 P, since a right-hand side feels a few pieces only.) Bytes enter as Q17. Along
-// y each lane, a column of coefficients, is shifted to have P between half and all of that.
+// y each lane, a column of coefficients, enters as Q17 too, or with as many bits less as it takes to stay below this P.
 //
 // Coefficients have LS_STATE_BITS fraction bits less than right-hand sides, so 32 bits hold 2^12 P. Without weights no
-// coefficient exceeds 2600 P, at N = 17 and k = 1.25; it falls to 1060 P with larger N, 53 P at k = 1.5, 11 P at k = 2
-// and 9 P when interpolating, always in the outermost one: the fit extrapolates over the last half pixel. Weights can
-// multiply that by 64, and then coefficients saturate.
+// coefficient exceeds 2600 P, at N = 17 and k = 1.25; 82 P from k = 1.5 on, 19 P from k = 2 on and 13 P when
+// interpolating, at either end of a small N: the fit extrapolates over the last half pixel. Weights can multiply that by
+// 64, and then coefficients saturate.
 //
 // Both axes together grow by at most 2600^2, so largest |row| * 2600 bounds the surface: its fraction bits follow from
 // it.

@@ -47,7 +47,7 @@ int64_t ls_units_per_phase(const ls_knots_t *knots);
 /**
  * The four B-splines that are not zero at a position, by de Boor's recursion.
  *
- * @param[out] value     Q30; each errs by 2^-28 at most, and their sum is 2^30 exactly.
+ * @param[out] value     Q30, none below 0; each errs by 2^-28 at most, and their sum is 2^30 exactly.
  * @param      position  In the units of ls_site(), within the axis.
  * @return The first one's number: that of the piece.
  */

@@ -46,8 +46,7 @@ typedef struct {
     uint8_t level; /**< the axis is divided by 8^level */
 } window_side_t;
 
-/** Build the table of a resampler. WARP_NEAREST and WARP_AUTO have none: their table is left as it is. */
-/** Build the table of a resampler. WARP_NEAREST and WARP_LS have none: their table is left as it is. */
+/** Build the table of a resampler. WARP_NEAREST, WARP_LS and WARP_AUTO have none: their table is left as it is. */
 void window_weights_init(window_weights_t *weights, warp_resampler_t resampler);
 
 /**
