@@ -15,8 +15,8 @@ typedef struct {
     warp_t *warp;
     const warp_kernels_t *kernels;
     const image_t *panel;
-    image_t picture;      /* after the prefilter */
-    ls_surface_t surface; /* of the picture, for WARP_LS */
+    image_t picture;      /* after the prefilter; unset for WARP_LS */
+    ls_surface_t surface; /* for WARP_LS only */
     int block_log2;       /* of the present rows' blocks */
 } frame_t;
 
@@ -51,6 +51,19 @@ static void fill_border(const warp_t *warp, const image_t *panel, int32_t j, int
     for (int32_t i = begin; i < end; i++)
         for (int32_t channel = 0; channel < channels; channel++)
             *out++ = warp->border[channel];
+}
+
+/* What the resampler reads; smaller levels and spline coefficients are made when a block asks for them. */
+static void prepare_picture(frame_t *frame, const image_t *picture, int32_t k_q16)
+{
+    warp_t *warp = frame->warp;
+    if (warp->resampler == WARP_LS) {
+        frame->surface = ls_fit(&warp->ls, frame->kernels, picture, k_q16);
+        return;
+    }
+    frame->picture = prefilter_picture(&warp->prefilter, frame->kernels, picture, warp->method.filter, k_q16);
+    levels_begin(&warp->levels);
+    spline_begin(&warp->spline);
 }
 
 /* Weights and level of every lit block of the block row that begins at row j. */
@@ -97,7 +110,7 @@ static void resample(const frame_t *frame, int32_t j, int32_t begin, int32_t end
         nearest(row + begin * channels, &frame->picture, x, y, end - begin);
         return;
     }
-    if (frame->warp->method.resampler == WARP_LS) {
+    if (frame->warp->resampler == WARP_LS) {
         resample_ls_fn *evaluate = gray ? kernels->ls_gray : kernels->ls_xrgb;
         evaluate(row + begin * channels, &frame->surface, x, y, end - begin);
         return;
@@ -130,6 +143,14 @@ static void make_row(const frame_t *frame, int32_t j)
     fill_border(frame->warp, frame->panel, j, row->end, frame->panel->width);
 }
 
+static int32_t lit_pixels(const grid_t *grid, int32_t rows)
+{
+    int32_t lit = 0;
+    for (int32_t j = 0; j < rows; j++)
+        lit += grid->row[j].end - grid->row[j].begin;
+    return lit;
+}
+
 static bool image_fits(const image_t *image, int32_t width, int32_t height, image_format_t format)
 {
     return image->width == width && image->height == height && image->format == format && width >= 1 && height >= 1 &&
@@ -144,30 +165,24 @@ bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *repo
         return false;
 
     const footprint_step_t step = footprint_step(homography);
-    grid_from_homography(&warp->grid, homography);
-    levels_begin(&warp->levels);
-    if (warp->method.resampler != WARP_LS)
-        spline_begin(&warp->spline);
-    frame_t frame = {.warp = warp, .kernels = kernels, .panel = panel};
     const int32_t k_q16 = warp->step_all ? step.all_q16 : step.in_q16;
-    frame.picture = prefilter_picture(&warp->prefilter, kernels, picture, warp->method.filter, k_q16);
     if (warp->method.resampler == WARP_AUTO)
         warp->resampler = warp_resampler_for_step(warp->resampler, k_q16);
-    if (warp->method.resampler == WARP_LS)
-        frame.surface = ls_fit(&warp->ls, kernels, picture, k_q16);
+    grid_from_homography(&warp->grid, homography);
+    const int32_t lit = lit_pixels(&warp->grid, panel->height);
 
     /* Plain interpolation has no sides: one block, of side 0, serves every row. */
-    const bool averages = warp_averages(warp->resampler);
-    frame.block_log2 = WHOLE_ROW_LOG2;
+    frame_t frame = {.warp = warp, .kernels = kernels, .panel = panel, .block_log2 = WHOLE_ROW_LOG2};
     warp->block[0] = (warp_block_t){{0, 0}, {0, 0}};
-    int32_t lit = 0;
+    const bool averages = warp_averages(warp->resampler);
+    if (lit > 0)
+        prepare_picture(&frame, picture, k_q16);
     for (int32_t j = 0; j < panel->height; j++) {
         if (averages && j % FOOTPRINT_BAND == 0)
             frame.block_log2 = footprint_block_log2(&warp->grid, j);
         if (averages && j % (1 << frame.block_log2) == 0)
             choose_blocks(&frame, j);
         make_row(&frame, j);
-        lit += warp->grid.row[j].end - warp->grid.row[j].begin;
     }
     if (report != NULL)
         *report = (warp_report_t){step.in_q16, step.all_q16, lit, warp->resampler};

@@ -23,7 +23,7 @@ typedef struct {
     window_side_t x, y;
 } warp_block_t;
 
-/** Everything a board needs between and within frames; about 190 MB, most of it never touched by small pictures. */
+/** Everything a board needs between and within frames; about 193 MB, most of it never touched by small pictures. */
 typedef struct {
     warp_method_t method;
     bool step_all;              /**< take k over the whole wall, not only over what lands in the picture */
@@ -78,6 +78,7 @@ void warp_set_ls_weights(warp_t *warp, const ls_weights_t *weights);
  * No allocation. Time is bounded: a lit pixel reads WINDOW_MAX_TAPS x WINDOW_MAX_TAPS texels at most. Together they
  * read some 36 texels per lit pixel, or where footprints are larger than that a small multiple of the picture's own
  * pixels: 1 to 4 times it, and A / 2 times that when footprints of aspect ratio A stand askew (A is 11 at 85 degrees).
+ * Filters, splines and fits cost per picture pixel besides (prefilter.h, spline.h, ls_fit.h); nothing if none is lit.
  */
 bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *report, const homography_t *homography,
                 const image_t *panel, const image_t *picture);

@@ -165,6 +165,31 @@ static void huge_footprints_see_the_mean(void **state)
     free(picture.memory);
 }
 
+/* A viewer who looks away: no method touches the picture, so that a frame without a single kernel is made. */
+static void unlit_frames_leave_the_picture_alone(void **state)
+{
+    (void)state;
+    static const warp_kernels_t none = {0};
+    const int64_t one = (int64_t)1 << 40;
+    const int64_t rows[3][3] = {{3 * one, 0, 900 * one}, {0, 3 * one, 0}, {0, 0, one}};
+    const int32_t size[2] = {31, 17};
+    homography_t h;
+    homography_from_indices(&h, rows, size, size);
+    guarded_t panel = guarded(31, 17, IMAGE_GRAY8), picture = guarded(31, 17, IMAGE_GRAY8);
+    for (int m = 0; m < 2 * WARP_METHODS; m++) {
+        warp_report_t report;
+        warp_init(&warp, warp_methods[m / 2], m % 2 == 1, border);
+        assert_true(warp_frame(&warp, &none, &report, &h, &panel.image, &picture.image));
+        assert_int_equal(report.lit_pixels, 0);
+        assert_int_equal(report.k_all_q16, 3 << 16);
+        for (int32_t k = 0; k < 31 * 17; k++)
+            assert_int_equal(image_row(&panel.image, k / 31)[k % 31], border[2]);
+    }
+    check_guards(&panel);
+    free(panel.memory);
+    free(picture.memory);
+}
+
 static void auto_chooses_by_k_and_stays(void **state)
 {
     (void)state;
@@ -249,7 +274,7 @@ int main(void)
         cmocka_unit_test(frames_are_whole_and_nothing_else), cmocka_unit_test(identity_is_unchanged),
         cmocka_unit_test(huge_footprints_see_the_mean),      cmocka_unit_test(wrong_images_are_refused),
         cmocka_unit_test(methods_are_found_by_name),         cmocka_unit_test(auto_chooses_by_k_and_stays),
-        cmocka_unit_test(auto_shows_what_it_names),
+        cmocka_unit_test(auto_shows_what_it_names),          cmocka_unit_test(unlit_frames_leave_the_picture_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
