@@ -123,7 +123,7 @@ static int32_t kaiser_q30(int64_t *exact_q30, int32_t k_q16)
     return half_length;
 }
 
-/* 1 / sqrt(1 + x^8) in Q30; with r = min(x, 1/x) it is 1 / sqrt(1 + r^8), times r^4 where x > 1. x > 0 in Q26. */
+/* 1 / sqrt(1 + x^8) in Q30; with r = min(x, 1/x) it is 1 / sqrt(1 + r^8), times r^4 where x > 1. 0 <= x <= 64, Q26. */
 static int64_t butter_response_q30(int64_t x_q26)
 {
     const int64_t one_q26 = 1 << 26;
@@ -159,7 +159,7 @@ static int32_t butter_q30(int64_t *exact_q30, int32_t k_q16)
         int64_t sum_q44 = (response_q30[0] + (n % 2 == 0 ? response_q30[NYQUIST] : -response_q30[NYQUIST])) << 14;
         for (int32_t m = 1; m < NYQUIST; m++) {
             const int32_t j = (int32_t)((int64_t)m * n % DFT_POINTS);
-            sum_q44 += response_q30[m] * cos_q30[j <= NYQUIST ? j : DFT_POINTS - j] >> 15; /* twice: Q60 - 16 + 1 */
+            sum_q44 += response_q30[m] * cos_q30[j <= NYQUIST ? j : DFT_POINTS - j] >> 15; /* twice, from Q60 */
         }
         exact_q30[n] = round_shift(sum_q44, 44 + DFT_LOG2 - WEIGHT_BITS);
     }

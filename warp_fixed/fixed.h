@@ -15,6 +15,8 @@
 //            absolute weights of sum 3 per axis (sqrt(3) sum |2 - sqrt(3)|^|n|), so they reach 9 * 128 * 16 = 18432.
 //            The B-spline's weights are never negative and sum to 2^15 on both axes: no sum is larger than 2^15 *
 //            18432.
+// Fits       Least squares take int32: pixels and right-hand sides Q17, coefficients along x Q11, along both axes Q4 or
+//            less (ls_fit.c); rotations Q31 (ls_axis.c); B-splines and their weights Q30 (ls_knots.h).
 #ifndef WARP_FIXED_FIXED_H
 #define WARP_FIXED_FIXED_H
 

@@ -35,8 +35,8 @@ typedef void resample_nearest_fn(uint8_t *restrict out, const image_t *picture, 
 /** Weights of a window along both axes, and where its texels are. */
 typedef struct {
     window_axis_t x, y;
-    image_t picture;             /**< at its level; or, for splines, */
-    coefficients_t coefficients; /**< its coefficients */
+    image_t picture;             /**< at its level */
+    coefficients_t coefficients; /**< of that picture; the spline_* loops read them instead */
     int32_t width, height;       /**< of level 0: points are clamped to it */
     int level_x, level_y;        /**< a point is divided by 8^level */
 } window_t;
@@ -59,12 +59,15 @@ enum {
     PREFILTER_SHORT_RADIUS = 3 /**< up to here the first pass has 8-bit weights */
 };
 
-/** A symmetric FIR filter. */
+/**
+ * A symmetric FIR filter. Both passes' weights, w[0] + 2 (w[1] + ... + w[radius]), sum to FIRST_SUM << first_shift and
+ * SECOND_SUM in a low-pass, to 2^14 in the filter of spline.c.
+ */
 typedef struct {
     int32_t radius;
     int32_t first_shift;
-    int16_t first[PREFILTER_MAX_RADIUS + 1];  /**< of distance 0, 1, ...: first[0] + 2 sum = FIRST_SUM << first_shift */
-    int16_t second[PREFILTER_MAX_RADIUS + 1]; /**< likewise, SECOND_SUM */
+    int16_t first[PREFILTER_MAX_RADIUS + 1];  /**< weights of distance 0, 1, ... in the first pass */
+    int16_t second[PREFILTER_MAX_RADIUS + 1]; /**< the same in the second */
     int32_t offset;                           /**< the middle of the first pass's range, subtracted from it */
 } fir_t;
 
@@ -103,8 +106,8 @@ enum { LS_LANES = 16 /**< pictures are fitted in strips of so many rows, or colu
  *
  * For t = 0 to 3: (z_t, d) = (cos z_t + sin d, cos d - sin z_t), every product rounded as mul_q31().
  *
- * @param z     Rows `first` to `first + 3`, each of LS_LANES.
- * @param data  LS_LANES.
+ * @param z     Rows `first` to `first + 3`, each of LS_LANES. No sum leaves 32 bits: ls_fit.c.
+ * @param data  LS_LANES, of magnitude 255 * 2^17 at most.
  */
 typedef void ls_forward_fn(int32_t *restrict z, const int32_t *restrict data, const ls_equation_t *equation);
 

@@ -145,7 +145,7 @@ static void solve(ls_axis_t *axis, const uint16_t *weight)
 static void tabulate(ls_axis_t *axis)
 {
     const int64_t units = ls_units_per_phase(&axis->knots);
-    const int32_t wanted = axis->knots.interpolates ? LS_EDGE_PHASES - 1 : 2 * PHASES;
+    const int32_t wanted = axis->knots.interpolates ? LS_EDGE_PHASES : 2 * PHASES;
     const int32_t half = axis->phases / 2;
     axis->edge_phases = half < wanted ? half + 1 : wanted;
     axis->middle_phase = axis->knots.interpolates ? 3 * PHASES / 2 : 0;

@@ -19,8 +19,8 @@ enum {
     LS_MAX_SIZE = IMAGE_MAX_WIDTH, /**< equations, and coefficients, of an axis */
     LS_WEIGHT_ONE = 32768,         /**< an axis' largest weight */
     LS_WEIGHT_MIN = LS_WEIGHT_ONE / 4096,
-    LS_EDGE_PHASES = 9 * PHASES / 2 + 1, /**< 4.5 pixels of not-a-knot; least squares needs 2 knot distances */
-    LS_STATE_BITS = 6                    /**< right-hand sides have as many fraction bits more than coefficients */
+    LS_EDGE_PHASES = 9 * PHASES / 2, /**< 4.5 pixels of not-a-knot; least squares needs 2 knot distances */
+    LS_STATE_BITS = 6                /**< right-hand sides have as many fraction bits more than coefficients */
 };
 
 _Static_assert((int)IMAGE_MAX_HEIGHT <= (int)LS_MAX_SIZE, "one type serves both axes");

@@ -9,8 +9,8 @@
 //
 // Coefficients have LS_STATE_BITS fraction bits less than right-hand sides, so 32 bits hold 2^12 P. Without weights no
 // coefficient exceeds 2600 P, at N = 17 and k = 1.25; 82 P from k = 1.5 on, 19 P from k = 2 on and 13 P when
-// interpolating, at either end of a small N: the fit extrapolates over the last half pixel. Weights can multiply that by
-// 64, and then coefficients saturate.
+// interpolating, at either end of a small N: the fit extrapolates over the last half pixel. Weights can multiply that
+// by 64, and then coefficients saturate.
 //
 // Both axes together grow by at most 2600^2, so largest |row| * 2600 bounds the surface: its fraction bits follow from
 // it.
@@ -136,16 +136,10 @@ static void choose_shifts(int32_t shift[LS_LANES], const int32_t *column, ptrdif
     }
 }
 
-/* Of the surface. */
-typedef struct {
-    ptrdiff_t stride;
-    int32_t fraction_bits;
-} format_t;
-
-/* `lanes` columns of coefficients along x -> of both, in place. */
-static void fit_columns(ls_t *ls, const warp_kernels_t *kernels, int32_t *column, int32_t lanes, const format_t *format)
+/* `lanes` columns of coefficients along x, `stride` to a row -> of both axes, with fraction_bits, in place. */
+static void fit_columns(ls_t *ls, const warp_kernels_t *kernels, int32_t *column, int32_t lanes, ptrdiff_t stride,
+                        int32_t fraction_bits)
 {
-    const ptrdiff_t stride = format->stride;
     int32_t shift[LS_LANES], data[LS_LANES] = {0};
     choose_shifts(shift, column, stride, ls->y.knots.size, lanes);
     begin_strip(ls, &ls->y);
@@ -155,7 +149,7 @@ static void fit_columns(ls_t *ls, const warp_kernels_t *kernels, int32_t *column
         take_equation(ls, kernels, &ls->y.equation[y], data);
     }
     end_strip(ls, kernels, &ls->y);
-    const int32_t surplus = ROW_BITS - LS_STATE_BITS - format->fraction_bits;
+    const int32_t surplus = ROW_BITS - LS_STATE_BITS - fraction_bits;
     for (int32_t j = 0; j < ls->y.coefficients; j++)
         for (int32_t lane = 0; lane < lanes; lane++)
             column[j * stride + lane] = shifted(ls->strip[j * LS_LANES + lane], -(surplus + shift[lane]));
@@ -169,8 +163,9 @@ ls_surface_t ls_fit(ls_t *ls, const warp_kernels_t *kernels, const image_t *pict
     for (int32_t y = 0; y < picture->height; y += rows)
         fit_rows(ls, kernels, picture, y, y + rows < picture->height ? y + rows : picture->height);
     const int32_t stride = ls->x.coefficients * channels;
-    const format_t format = {stride, fraction_bits_for(ls->coefficients, (ptrdiff_t)stride * picture->height)};
+    const int32_t fraction_bits = fraction_bits_for(ls->coefficients, (ptrdiff_t)stride * picture->height);
     for (int32_t lane = 0; lane < stride; lane += LS_LANES)
-        fit_columns(ls, kernels, ls->coefficients + lane, stride - lane < LS_LANES ? stride - lane : LS_LANES, &format);
-    return (ls_surface_t){&ls->x, &ls->y, ls->coefficients, format.fraction_bits};
+        fit_columns(ls, kernels, ls->coefficients + lane, stride - lane < LS_LANES ? stride - lane : LS_LANES, stride,
+                    fraction_bits);
+    return (ls_surface_t){&ls->x, &ls->y, ls->coefficients, fraction_bits};
 }

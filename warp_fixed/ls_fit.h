@@ -9,13 +9,12 @@
 #include "warp_fixed/kernels.h"
 #include "warp_fixed/ls_axis.h"
 
-/** w_i and v_j of eq 7, one per picture column and row: LS_WEIGHT_ONE is the largest of an axis. See ls_axis_update().
- */
+/** w_i and v_j of eq 7, one per picture column and row; LS_WEIGHT_ONE is an axis' largest. See ls_axis_update(). */
 typedef struct {
     uint16_t x[IMAGE_MAX_WIDTH], y[IMAGE_MAX_HEIGHT];
 } ls_weights_t;
 
-/** The axes of the last k, and the last surface: about 143 MB, of which a picture touches 16 bytes per pixel. */
+/** The axes of the last k, and the last surface: about 142 MB, of which a picture touches 4 times its own bytes. */
 typedef struct {
     ls_weights_t weights;
     ls_axis_t x, y;
@@ -42,8 +41,10 @@ void ls_set_weights(ls_t *ls, const ls_weights_t *weights);
  * them large. No picture makes them overflow; weights that differ by much may, and then they saturate: along x at 2^20
  * levels, along both at 2^31. The proof, and the errors, are in the .c file.
  *
- * @param k_q16  k <= 1 interpolates, k from there to 1.25 counts as 1.25.
- * @return A view into `ls`.
+ * @param ls       From ls_init().
+ * @param picture  Of any size and format (image.h).
+ * @param k_q16    k <= 1 interpolates; between 1 and 1.25 counts as 1.25.
+ * @return A view into `ls`, valid until the next call or ls_set_weights().
  */
 ls_surface_t ls_fit(ls_t *ls, const warp_kernels_t *kernels, const image_t *picture, int32_t k_q16);
 

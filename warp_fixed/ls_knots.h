@@ -39,9 +39,10 @@ int32_t ls_coefficients(const ls_knots_t *knots);
 /** @return Length of the axis in phases: PHASES per knot distance, or per pixel when interpolating; at most 2^19. */
 int32_t ls_phases(const ls_knots_t *knots);
 
-/** @return The centre of pixel i, in units of which a phase has ls_units_per_phase(). */
+/** @return The centre of pixel i, in units of which a phase has ls_units_per_phase(); below 2^31. */
 int64_t ls_site(const ls_knots_t *knots, int32_t i);
 
+/** @return Units of ls_site() in a phase. */
 int64_t ls_units_per_phase(const ls_knots_t *knots);
 
 /**

@@ -20,13 +20,13 @@ typedef enum {
     WARP_AUTO         /**< mean+spline or mean+cubic, by the step k: warp_resampler_for_step() */
 } warp_resampler_t;
 
-/** @return true for those that average over footprints. */
+/** @return true for those that average over footprints. WARP_AUTO itself does not: ask for its choice. */
 static inline bool warp_averages(warp_resampler_t resampler)
 {
     return resampler == WARP_AREA || resampler == WARP_MEAN_CUBIC || resampler == WARP_MEAN_SPLINE;
 }
 
-/** @return true for those that resample spline coefficients. */
+/** @return true for those that resample spline coefficients. WARP_AUTO itself does not: ask for its choice. */
 static inline bool warp_splines(warp_resampler_t resampler)
 {
     return resampler == WARP_SPLINE || resampler == WARP_MEAN_SPLINE;

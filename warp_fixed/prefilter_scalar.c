@@ -15,8 +15,9 @@ void prefilter_columns_scalar(int16_t *restrict v, const uint8_t *const *rows, c
 }
 
 /*
- * |sum second| <= 1.8 * 32767 and |v| <= 1.8 * 2^14 (kaiser, the worst), so sum < 2^31; the offset's share is added
- * after the last 8 bits are gone, which changes nothing, since it and the rounding have none set there.
+ * Absolute weights sum to 1.7 times the sum at most (kaiser at k = 1.37), so |v| <= 1.7 * 2^14 and |sum| <= 1.7 * 32767
+ * * |v| < 2^31. The offset's share is added after the last 8 bits are gone, which changes nothing, since it and the
+ * rounding have none set there.
  */
 void prefilter_row_scalar(uint8_t *restrict out, const int16_t *restrict v, const fir_t *fir, int32_t count,
                           int32_t channels)
