@@ -17,7 +17,7 @@ static double bessel_i0(double x)
     return sum;
 }
 
-/* Weight n of the filter before it is normalised: DESIGN section 4. */
+/* Weight n of the filter before it is normalised: fir_design.h. */
 static double float_tap(warp_filter_t filter, double k, int n)
 {
     if (filter == WARP_FILTER_GAUSS) {

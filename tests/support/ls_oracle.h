@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least-squares spline of DESIGN section 4 along one axis in floating point: what the fixed-point fit is measured
-// against.
+// The least-squares spline of ls_knots.h and ls_axis.h along one axis in floating point: what the fixed-point fit is
+// measured against.
 #ifndef TESTS_SUPPORT_LS_ORACLE_H
 #define TESTS_SUPPORT_LS_ORACLE_H
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The geometry of DESIGN's conventions in floating point: what the fixed-point geometry is measured against.
+// The paper's geometry in floating point: what the fixed-point geometry is measured against.
 #ifndef TESTS_SUPPORT_ORACLE_H
 #define TESTS_SUPPORT_ORACLE_H
 

@@ -25,7 +25,7 @@ static ls_t ls;
 static ls_oracle_t across, down;
 static ls_weights_t weights;
 
-/* The worst differences: of the surface, and of pixels in levels; by how many axes the point is beyond the last site.
+/* The worst differences, of the surface and of pixels: by the number of axes along which a point is beyond the sites.
  */
 typedef struct {
     double surface[3], rms;

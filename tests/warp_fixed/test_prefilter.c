@@ -165,8 +165,10 @@ static void small_k_and_constants_pass(void **state)
                      pixels);
 }
 
-/* A walking viewer changes k by a percent or so per frame: the weights follow in proportion. Kaiser's grow by
- * whole pixels, ceil(6 k), as it is defined. */
+/*
+ * A walking viewer changes k by a percent or so per frame: the weights follow in proportion. Kaiser's length alone
+ * grows by whole pixels, ceil(6 k).
+ */
 static void weights_follow_k(void **state)
 {
     (void)state;

@@ -231,8 +231,7 @@ static void color_is_gray(void **state)
     color_is_gray_four_times(WARP_MEAN_SPLINE, resample_spline_xrgb_scalar);
 }
 
-/* The side chosen for a footprint is the nearest of the table; mean+cubic takes sqrt(w^2 - 1); large ones use levels.
- */
+/* The side chosen for a footprint is the table's nearest; mean+cubic takes sqrt(w^2 - 1); large ones use levels. */
 static void sides_follow_footprints(void **state)
 {
     (void)state;
