@@ -256,6 +256,10 @@ static void sides_follow_footprints(void **state)
     }
     assert_int_equal(window_side(WARP_AREA, UINT32_MAX).side, WINDOW_SIDES - 1);
     assert_int_equal(window_side(WARP_AREA, 0).side, 0);
+    const window_side_t largest = window_side(WARP_AREA, WINDOW_MAX_SIDE << 16);
+    assert_int_equal(largest.side, WINDOW_SIDES - 1);
+    assert_int_equal(largest.level, 0);
+    assert_int_equal(window_side(WARP_AREA, (WINDOW_MAX_SIDE << 16) + 1).level, 1);
 }
 
 int main(void)
