@@ -34,7 +34,7 @@ void ls_set_weights(ls_t *ls, const ls_weights_t *weights);
 /**
  * Fit a picture.
  *
- * Per channel of a pixel: 16 products of 32 bits along x and 16 / k along y, and 4 / k + 4 / k^2 to solve; for a new k
+ * Per channel of a pixel: 17 products of 32 bits along x and 17 / k along y, and 4 / k + 4 / k^2 to solve; for a new k
  * the axes' solution besides (ls_axis_update()).
  *
  * Formats: pixels and right-hand sides Q17, coefficients along x Q11, along both Q4, or less where the picture makes

@@ -238,6 +238,29 @@ static void coefficients_saturate(void **state)
     }
 }
 
+/* Rows as large as only weights make them: fraction bits give way, down to none. */
+static void fraction_bits_give_way(void **state)
+{
+    (void)state;
+    static ls_weights_t weights;
+    const image_t line = {pixels, 41, 1, 41, IMAGE_GRAY8};
+    ls_weights_init(&weights);
+    for (int i = 0; i < 41; i++)
+        weights.x[i] = i % 17 < 4 ? 0 : LS_WEIGHT_ONE;
+    int32_t fewest = 4;
+    for (uint64_t seed = 1; seed <= 100; seed++) {
+        rng_t rng = {seed};
+        for (int i = 0; i < 41; i++)
+            pixels[i] = (uint8_t)(rng_int(&rng, 0, 1) * 255);
+        ls_init(&ls);
+        assert_int_equal(ls_fit(&ls, &warp_kernels_scalar, &line, 2 << 16).fraction_bits, 4);
+        ls_set_weights(&ls, &weights);
+        const int32_t bits = ls_fit(&ls, &warp_kernels_scalar, &line, LS_GUARD_Q16).fraction_bits;
+        fewest = bits < fewest ? bits : fewest;
+    }
+    assert_int_equal(fewest, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -250,6 +273,7 @@ int main(void)
         cmocka_unit_test(other_weights_take_effect),
         cmocka_unit_test(nothing_else_is_written),
         cmocka_unit_test(coefficients_saturate),
+        cmocka_unit_test(fraction_bits_give_way),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
