@@ -31,8 +31,9 @@ typedef struct {
     int32_t first_shift;   /**< 0, or LONG_FIRST_SHIFT when taps > WINDOW_SHORT_TAPS; splines: SPLINE_SUM_LOG2 */
 } window_axis_t;
 
+/** The table of one resampler. */
 typedef struct {
-    bool spline;
+    bool spline;               /**< the weights are of spline coefficients */
     uint32_t at[WINDOW_SIDES]; /**< of row 0 in the pools */
     uint8_t taps[WINDOW_SIDES];
     int8_t start[WINDOW_SIDES][PHASES];

@@ -85,6 +85,11 @@ double float_weight(warp_resampler_t resampler, double t, double side)
     return (integral(resampler, t + side / 2) - integral(resampler, t - side / 2)) / side;
 }
 
+double float_side(int32_t side)
+{
+    return side < 64 ? side / 64.0 : (1 + (side - 64) % 32 / 32.0) * (1 << (side - 64) / 32);
+}
+
 /* One axis of the interpolating spline's coefficients, from its closed form; count values, `step` apart. */
 static void coefficients_along(double *values, int count, int step)
 {

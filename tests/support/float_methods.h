@@ -12,6 +12,9 @@ int float_taps(double taps[PREFILTER_MAX_RADIUS + 1], warp_filter_t filter, doub
 /** Weight, along one axis, of the texel (or coefficient) whose centre is at distance t before the point. */
 double float_weight(warp_resampler_t resampler, double t, double side);
 
+/** @return The side, in px, that entry `side` of a weight table stands for: see WINDOW_SIDES. */
+double float_side(int32_t side);
+
 /** Turn a gray picture, row by row, into the coefficients of its interpolating cubic B-spline. */
 void float_spline_coefficients(double *values, int width, int height);
 

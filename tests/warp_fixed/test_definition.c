@@ -61,12 +61,6 @@ static void make_surface(const warp_method_t *method, const warp_report_t *repor
         float_spline_coefficients(surface, WIDTH, HEIGHT);
 }
 
-static double side_of(warp_resampler_t resampler, uint32_t footprint_q16)
-{
-    const int32_t side = window_side(resampler, footprint_q16).side;
-    return side < 64 ? side / 64.0 : (1 + (side - 64) % 32 / 32.0) * (1 << (side - 64) / 32);
-}
-
 static uint8_t float_pixel(warp_resampler_t resampler, const int32_t point_q18[2], const footprint_sides_t *sides)
 {
     double weight[2][TAPS];
@@ -79,7 +73,8 @@ static uint8_t float_pixel(warp_resampler_t resampler, const int32_t point_q18[2
             continue;
         }
         const double point = (double)((clamped + (1 << 10)) >> 11) / PHASES;
-        const double side = side_of(resampler, axis == 0 ? sides->width_q16 : sides->height_q16);
+        const uint32_t footprint_q16 = axis == 0 ? sides->width_q16 : sides->height_q16;
+        const double side = float_side(window_side(resampler, footprint_q16).side);
         begin[axis] = (int)floor(point) - TAPS / 2;
         assert_true(side + 5 < TAPS);
         for (int t = 0; t < TAPS; t++)

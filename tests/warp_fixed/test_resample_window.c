@@ -37,11 +37,6 @@ static uint8_t gray[WIDTH * HEIGHT], color[WIDTH * HEIGHT * 4];
 static double surface[WIDTH * HEIGHT]; /* what the kernel weighs: gray, or its spline coefficients */
 static spline_t spline;
 
-static double side_px(int32_t side)
-{
-    return side < 64 ? side / 64.0 : (1 + (side - 64) % 32 / 32.0) * (1 << (side - 64) / 32);
-}
-
 static double float_definition(warp_resampler_t resampler, const double point[2], const double side[2])
 {
     double sum = 0, wx[WIDTH + 400], wy[HEIGHT + 400];
@@ -122,7 +117,7 @@ static void compare(warp_resampler_t resampler, int32_t sides, int levels)
         const int32_t side[2] = {(int32_t)rng_int(&rng, 0, sides - 1), (int32_t)rng_int(&rng, 0, sides - 1)};
         const int32_t x = (int32_t)rng_int(&rng, 0, WIDTH * PHASES), y = (int32_t)rng_int(&rng, 0, HEIGHT * PHASES);
         const double point[2] = {(double)x / PHASES, (double)y / PHASES};
-        const double sides_px[2] = {side_px(side[0]), side_px(side[1])};
+        const double sides_px[2] = {float_side(side[0]), float_side(side[1])};
         const window_t window = window_of(side[0], side[1], gray, IMAGE_GRAY8);
         const int32_t x_q18 = x << (18 - PHASE_BITS), y_q18 = y << (18 - PHASE_BITS);
         const uint8_t got = pixel_at(&window, x_q18, y_q18);
@@ -244,10 +239,10 @@ static void sides_follow_footprints(void **state)
         const window_side_t area = window_side(WARP_AREA, (uint32_t)lround(width * 65536));
         const window_side_t mean = window_side(WARP_MEAN_CUBIC, (uint32_t)lround(width * 65536));
         if (area.level != level || mean.level != level ||
-            fabs(side_px(area.side) - reduced) > fmax(reduced, 0.5) / 60 ||
-            fabs(side_px(mean.side) - cubic) > fmax(cubic, 0.5) / 60)
+            fabs(float_side(area.side) - reduced) > fmax(reduced, 0.5) / 60 ||
+            fabs(float_side(mean.side) - cubic) > fmax(cubic, 0.5) / 60)
             fail_msg("seed %lu: width %f, level %d: sides %f and %f", (unsigned long)seed, width, area.level,
-                     side_px(area.side), side_px(mean.side));
+                     float_side(area.side), float_side(mean.side));
         const window_side_t mean_spline = window_side(WARP_MEAN_SPLINE, (uint32_t)lround(width * 65536));
         assert_int_equal(mean_spline.side, mean.side);
         assert_int_equal(mean_spline.level, mean.level);
