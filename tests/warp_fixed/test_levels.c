@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Halved levels of a picture: means of blocks, mirrored beyond the edge, made once per frame.
+// Halved levels of a picture: means of blocks, mirrored beyond the edge, made once per frame; frames that need several.
 #include "warp_fixed/levels.h"
 
 #include <setjmp.h>
@@ -9,8 +9,12 @@
 
 #include <cmocka.h>
 
+#include <math.h>
+
+#include "tests/support/homography_of.h"
 #include "tests/support/rng.h"
 #include "warp_fixed/fixed.h"
+#include "warp_fixed/warp.h"
 
 static levels_t levels;
 static uint8_t pixels[150 * 100 * 4];
@@ -77,12 +81,44 @@ static void the_largest_picture_fits(void **state)
     }
 }
 
+/* A ramp, and a frame whose footprints are 70 to 280 texels wide and 8 to 128 high: some blocks share no level. */
+static void blocks_read_levels_of_their_own(void **state)
+{
+    (void)state;
+    enum { SIZE = 64, WIDTH = 3000, HEIGHT = 2000 };
+    static warp_t warp;
+    static uint8_t ramp[WIDTH * HEIGHT], shown[SIZE * SIZE];
+    static const uint8_t black[3] = {0, 0, 0};
+    static const double rows[9] = {70, 0, 0, 0, 8, 0, 0, -0.75 / SIZE, 1};
+    const image_t picture = {ramp, WIDTH, HEIGHT, WIDTH, IMAGE_GRAY8}, panel = {shown, SIZE, SIZE, SIZE, IMAGE_GRAY8};
+    const homography_t homography = homography_of(rows, (homography_sizes_t){SIZE, SIZE, WIDTH, HEIGHT});
+    for (int k = 0; k < WIDTH * HEIGHT; k++)
+        ramp[k] = (uint8_t)(20 + k % WIDTH * 100 / WIDTH + k / WIDTH * 100 / HEIGHT);
+    for (int m = 0; m < WARP_METHODS; m++) {
+        if (!warp_averages(warp_methods[m].resampler))
+            continue;
+        warp_init(&warp, warp_methods[m], false, black);
+        assert_true(warp_frame(&warp, &warp_kernels_scalar, NULL, &homography, &panel, &picture));
+        for (int32_t n = 0; n < SIZE * SIZE; n++) {
+            int32_t x, y;
+            if (!grid_point(&warp.grid, n % SIZE, n / SIZE, &x, &y))
+                continue;
+            const double px = fmin(fmax(ldexp(x, -18), 0), WIDTH), py = fmin(fmax(ldexp(y, -18), 0), HEIGHT);
+            const double expected = 20 + px * 100 / WIDTH + py * 100 / HEIGHT;
+            if (fabs(shown[n] - expected) > 5) /* half a footprint of 280 at the edge, and the ramp's steps */
+                fail_msg("%s, pixel (%d, %d): %d, expected %f", warp_methods[m].name, n % SIZE, n / SIZE, shown[n],
+                         expected);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(levels_are_means),
         cmocka_unit_test(levels_are_made_once_a_frame),
         cmocka_unit_test(the_largest_picture_fits),
+        cmocka_unit_test(blocks_read_levels_of_their_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
