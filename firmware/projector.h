@@ -42,7 +42,7 @@ typedef struct {
     int64_t warp_time_us;
 } projector_report_t;
 
-/** About 193 MB, one static instance on a board; the simulator makes one for each of its boards before it starts. */
+/** About 158 MB, one static instance on a board; the simulator makes one for each of its boards before it starts. */
 struct projector {
     hal_board_t board;
     int32_t node;

@@ -166,15 +166,48 @@ static int32_t butter_q30(int64_t *exact_q30, int32_t k_q16)
     return radius;
 }
 
-void fir_design(fir_t *fir, warp_filter_t filter, int32_t k_q16)
+/* Weights of distance 0 to radius convolved with those that make B-spline coefficients. @return the new radius. */
+static int32_t to_splines_q30(int64_t *exact_q30, int32_t radius)
+{
+    enum { TAIL = 8 };
+    static const int64_t inverse_q30[TAIL + 1] = {1859775393, -498325315, 133525866, -35778148, 9586726,
+                                                  -2568755,   688296,     -184428,   49417};
+    int64_t before_q30[PREFILTER_MAX_RADIUS + 1];
+    for (int32_t d = 0; d <= radius; d++)
+        before_q30[d] = exact_q30[d];
+    for (int32_t d = 0; d <= radius + TAIL; d++) {
+        int64_t sum_q60 = 0; /* below 3 * 2^60 */
+        for (int32_t n = -TAIL; n <= TAIL; n++) {
+            const int32_t from = d - n < 0 ? n - d : d - n;
+            if (from <= radius)
+                sum_q60 += before_q30[from] * inverse_q30[n < 0 ? -n : n];
+        }
+        exact_q30[d] = round_shift(sum_q60, WEIGHT_BITS);
+    }
+    return radius + TAIL;
+}
+
+static int32_t low_pass_q30(int64_t *exact_q30, warp_filter_t filter, int32_t k_q16)
+{
+    switch (filter) {
+    case WARP_FILTER_GAUSS:
+        return gauss_q30(exact_q30, k_q16);
+    case WARP_FILTER_KAISER:
+        return kaiser_q30(exact_q30, k_q16);
+    case WARP_FILTER_BUTTER:
+        return butter_q30(exact_q30, k_q16);
+    case WARP_FILTER_NONE:
+        break;
+    }
+    exact_q30[0] = (int64_t)1 << WEIGHT_BITS;
+    return 0;
+}
+
+void fir_design(fir_t *fir, warp_filter_t filter, int32_t k_q16, bool splines)
 {
     int64_t exact_q30[PREFILTER_MAX_RADIUS + 1];
-    const int32_t radius = filter == WARP_FILTER_KAISER   ? kaiser_q30(exact_q30, k_q16)
-                           : filter == WARP_FILTER_BUTTER ? butter_q30(exact_q30, k_q16)
-                                                          : gauss_q30(exact_q30, k_q16);
-    fir->radius = radius;
-    fir->offset = PREFILTER_OFFSET;
-    fir->first_shift = radius > PREFILTER_SHORT_RADIUS ? LONG_FIRST_SHIFT : 0;
-    weights_to_sum(fir->first, exact_q30, radius, FIRST_SUM << fir->first_shift);
-    weights_to_sum(fir->second, exact_q30, radius, SECOND_SUM);
+    fir->radius = low_pass_q30(exact_q30, filter, k_q16);
+    if (splines)
+        fir->radius = to_splines_q30(exact_q30, fir->radius);
+    weights_to_sum(fir->weight, exact_q30, fir->radius, 1 << FILTER_SUM_LOG2);
 }

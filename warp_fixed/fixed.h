@@ -4,17 +4,21 @@
 // Positions  Q18 int32: 13 integer bits reach +-8192 px, 18 fraction bits leave the grid's forward differences right
 //            to 2^-10 px over a span of 64.
 // Phases     Kernels see positions rounded to 1/128 px (1/64 costs 0.04 dB where these are a quarter of a texel).
-// Sums       Both passes of prefilter and window go from 8 bits to 8 bits through 16:
+// Sums       Both passes of a window of texels go from 8 bits to 8 bits through 16:
 //            first pass   v = sum(w1 * p), the weights' sum S1 is 128 (or 255 where no weight is negative);
 //                         less its middle, 128 * S1, v fits signed 16 bits with all that a cubic overshoots (without
 //                         negative weights it fits unsigned ones as it is): 8 x 8 bit multiplies do for vector code;
 //            second pass  out = (sum(w2 * v) + 2^21) >> 22, the weights' sum S2 is chosen so that S1 * S2 = 2^22,
 //                         nearly: 32767 for 128 and 16448 for 255. A constant picture comes out unchanged:
 //                         |S1 * S2 - 2^22| <= 128 is at most 0.008 of a grey level.
-// Splines    Coefficients are int16 in 1/16 of a grey level, less the middle grey 128. The filter that makes them has
-//            absolute weights of sum 3 per axis (sqrt(3) sum |2 - sqrt(3)|^|n|), so they reach 9 * 128 * 16 = 18432.
-//            The B-spline's weights are never negative and sum to 2^15 on both axes: no sum is larger than 2^15 *
-//            18432.
+// Filters    Weights sum to 2^14 on both axes, their absolute values to 3 times that at most: that of the filter which
+//            makes B-spline coefficients, sqrt(3) sum |2 - sqrt(3)|^|n|; low-passes before it lessen it. First pass:
+//            bytes to 64 per grey level, less 64 * 128, so |v| <= 3 * 64 * 128 = 24576 fits int16. Second pass:
+//            |sum| <= 3 * 2^14 * 24576 < 2^31.
+// Coefficients  What filters make: int16 in 1/16 of a grey level, less the middle grey 128; |c| <= 9 * 128 * 16 =
+// 18432,
+//            for a low-pass alone 1.7^2 * 128 * 16 = 5919. Windows weigh them with weights of sum 2^14 on both axes;
+//            absolute ones sum to 1.25 times that at most (cubic), to once for the B-spline: no sum exceeds 2^30.
 // Fits       Least squares take int32: pixels and right-hand sides Q17, coefficients along x Q11, along both axes Q4 or
 //            less (ls_fit.c); rotations Q31 (ls_axis.c); B-splines and their weights Q30 (ls_knots.h).
 #ifndef WARP_FIXED_FIXED_H
@@ -31,10 +35,12 @@ enum {
     FIRST_SUM_POSITIVE = 255,
     SECOND_SUM_POSITIVE = 16448,
     SUM_SHIFT = 22,
-    LONG_FIRST_SHIFT = 6, /**< long filters have as many bits more in the first pass, and lose them before the second */
-    SPLINE_MIDDLE = 128,
-    SPLINE_FRACTION_BITS = 4,
-    SPLINE_SUM_LOG2 = 15
+    LONG_FIRST_SHIFT = 6, /**< long windows have as many bits more in the first pass, and lose them before the second */
+    FILTER_SUM_LOG2 = 14,
+    FILTER_FIRST_BITS = 6, /**< fraction bits after the first pass */
+    COEFFICIENT_BITS = 4,  /**< fraction bits of coefficients */
+    COEFFICIENT_MIDDLE = 128,
+    COEFFICIENT_SUM_LOG2 = 14
 };
 
 /** 64 x 64 -> 128 bit products, for the geometry only. */
@@ -75,11 +81,10 @@ static inline uint8_t pixel_from_sum(int32_t sum)
     return (uint8_t)clamp_i32((sum + (1 << (SUM_SHIFT - 1))) >> SUM_SHIFT, 0, 255);
 }
 
-/** @return The second pass's sum over spline coefficients as a grey level, 0 to 255. */
-static inline uint8_t pixel_from_spline(int32_t sum)
+/** @return A value of so many fraction bits, less the middle grey, as a grey level, 0 to 255. */
+static inline uint8_t pixel_from_centred(int32_t value, int fraction_bits)
 {
-    const int shift = SPLINE_SUM_LOG2 + SPLINE_FRACTION_BITS;
-    return (uint8_t)clamp_i32(((sum + (1 << (shift - 1))) >> shift) + SPLINE_MIDDLE, 0, 255);
+    return (uint8_t)clamp_i32(((value + (1 << (fraction_bits - 1))) >> fraction_bits) + COEFFICIENT_MIDDLE, 0, 255);
 }
 
 /** @return floor(sqrt(x)). 32 steps. */

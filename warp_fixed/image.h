@@ -27,7 +27,8 @@ typedef struct {
     image_format_t format; /**< bytes per pixel */
 } image_t;
 
-/** A rectangle of spline coefficients (fixed.h), in the order of a picture's channels. Never owns the memory. */
+/** A filtered picture, or spline coefficients (fixed.h), in the order of a picture's channels. Never owns the memory.
+ */
 typedef struct {
     int16_t *data;
     int32_t width;    /**< pixels */

@@ -45,7 +45,7 @@ typedef struct {
  * Weigh the window of texels around each point (window_weights.h). Texels beyond the picture's edge are mirrored.
  *
  * v = (sum_y first * texel + half) >> first_shift for each column, out = pixel_from_sum(sum_x second * v), per channel.
- * The spline_* loops do the same on coefficients, where out = pixel_from_spline(sum_x second * v).
+ * The coefficients_* loops do the same on coefficients: out is sum_x second * v, rounded and clamped.
  *
  * @param[out] out      count pixels of the picture's format.
  * @param      x_q18, y_q18  count points; clamped here to the picture.
@@ -53,51 +53,37 @@ typedef struct {
 typedef void resample_window_fn(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
                                 const int32_t *restrict y_q18, int32_t count);
 
-enum {
-    PREFILTER_MAX_RADIUS = 512, /**< of butter at the largest k, 64 */
-    PREFILTER_OFFSET = 128 * 128,
-    PREFILTER_SHORT_RADIUS = 3 /**< up to here the first pass has 8-bit weights */
-};
+enum { PREFILTER_MAX_RADIUS = 512 + 8 /**< of butter at the largest k, 64, with that of the spline */ };
 
-/**
- * A symmetric FIR filter. Both passes' weights, w[0] + 2 (w[1] + ... + w[radius]), sum to FIRST_SUM << first_shift and
- * SECOND_SUM in a low-pass, to 2^14 in the filter of spline.c.
- */
+/** A symmetric FIR filter: w[0] + 2 (w[1] + ... + w[radius]) = 1 << FILTER_SUM_LOG2. */
 typedef struct {
     int32_t radius;
-    int32_t first_shift;
-    int16_t first[PREFILTER_MAX_RADIUS + 1];  /**< weights of distance 0, 1, ... in the first pass */
-    int16_t second[PREFILTER_MAX_RADIUS + 1]; /**< the same in the second */
-    int32_t offset;                           /**< the middle of the first pass's range, subtracted from it */
+    int16_t weight[PREFILTER_MAX_RADIUS + 1]; /**< of distance 0, 1, ... */
 } fir_t;
 
 /**
- * First pass of the prefilter: one output row from 2 radius + 1 rows, column by column.
+ * First pass of a filter: one output row from 2 radius + 1 rows, column by column.
  *
- * @param[out] v      count sums, each ((sum first * byte + half) >> first_shift) - offset: less their middle, so that
- *                    what a filter overshoots fits 16 bits too.
+ * @param[out] v      count sums, each sum(weight * byte) rounded to FILTER_FIRST_BITS fraction bits, less the middle
+ * grey.
  * @param      rows   rows[0] to rows[2 radius], each of count bytes.
  * @param      count  Bytes of a row: width times channels.
  */
-typedef void prefilter_columns_fn(int16_t *restrict v, const uint8_t *const *rows, const fir_t *fir, int32_t count);
+typedef void filter_columns_fn(int16_t *restrict v, const uint8_t *const *rows, const fir_t *fir, int32_t count);
 
 /**
- * Second pass: one row of bytes from the first pass's sums, pixel_from_sum(sum second * (v + PREFILTER_OFFSET)).
+ * Second pass: one row of coefficients from the first pass's sums, sum(weight * v) rounded to COEFFICIENT_BITS.
  *
- * @param[out] out       count bytes.
+ * @param[out] out       count coefficients.
  * @param      v         v[-radius * channels] to v[count + radius * channels - 1] are read.
  * @param      channels  Distance between neighbours of one channel: 1 or 4.
  */
-typedef void prefilter_row_fn(uint8_t *restrict out, const int16_t *restrict v, const fir_t *fir, int32_t count,
-                              int32_t channels);
-
-/**
- * Second pass of the filter that turns a picture into spline coefficients (spline.h): (sum second * v + half) >> 16.
- *
- * @param[out] out  count coefficients; the other parameters are those of prefilter_row_fn.
- */
-typedef void spline_row_fn(int16_t *restrict out, const int16_t *restrict v, const fir_t *fir, int32_t count,
+typedef void filter_row_fn(int16_t *restrict out, const int16_t *restrict v, const fir_t *fir, int32_t count,
                            int32_t channels);
+
+/** The same to bytes: rounded half up and clamped. */
+typedef void filter_row_bytes_fn(uint8_t *restrict out, const int16_t *restrict v, const fir_t *fir, int32_t count,
+                                 int32_t channels);
 
 enum { LS_LANES = 16 /**< pictures are fitted in strips of so many rows, or columns, times channels */ };
 
@@ -143,10 +129,10 @@ typedef struct {
     grid_points_fn *grid_points;
     resample_nearest_fn *nearest_gray, *nearest_xrgb;
     resample_window_fn *window_gray, *window_xrgb;
-    prefilter_columns_fn *prefilter_columns;
-    prefilter_row_fn *prefilter_row;
-    spline_row_fn *spline_row;
-    resample_window_fn *spline_gray, *spline_xrgb;
+    resample_window_fn *coefficients_gray, *coefficients_xrgb;
+    filter_columns_fn *filter_columns;
+    filter_row_fn *filter_row;
+    filter_row_bytes_fn *filter_row_bytes;
     ls_forward_fn *ls_forward;
     ls_backward_fn *ls_backward;
     resample_ls_fn *ls_gray, *ls_xrgb;

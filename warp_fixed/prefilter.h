@@ -1,47 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
-// The low-pass filter before resampling: separable, its cut-off 1 / (2 k) from the step k.
+// The filter before resampling: a low-pass for the step k, with or without B-spline coefficients of what it makes.
 #ifndef WARP_FIXED_PREFILTER_H
 #define WARP_FIXED_PREFILTER_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "warp_fixed/fir_design.h"
 #include "warp_fixed/image.h"
 #include "warp_fixed/kernels.h"
+#include "warp_fixed/levels.h"
 
-/** First pass of one row, with mirrored ends. */
+/** What a filter is designed for. */
 typedef struct {
-    int16_t v[(IMAGE_MAX_WIDTH + 2 * PREFILTER_MAX_RADIUS) * 4];
-} prefilter_sums_t;
+    warp_filter_t filter;
+    int32_t k_q16; /**< 0 for WARP_FILTER_NONE */
+    bool splines;
+} prefilter_kind_t;
 
-/**
- * Run the first pass along row y, and continue it by half-sample mirroring.
- *
- * @return The row's first sum within `sums`; radius pixels before and after the row are there too.
- */
-const int16_t *prefilter_sums(prefilter_sums_t *sums, const warp_kernels_t *kernels, const fir_t *fir,
-                              const image_t *picture, int32_t y);
-
-/** The filter of the last k, and the filtered picture. */
+/** The last filter, and what it has made of this frame's picture: 93 MB, touched as far as a picture needs them. */
 typedef struct {
-    warp_filter_t filter; /**< that fir is; WARP_FILTER_NONE at first */
-    int32_t k_q16;        /**< that fir was designed for */
+    prefilter_kind_t kind;
     fir_t fir;
-    prefilter_sums_t sums;
-    uint8_t pixels[IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT * 4];
+    int16_t sums[(IMAGE_MAX_WIDTH + 2 * PREFILTER_MAX_RADIUS) * 4]; /**< first pass of one row, with mirrored ends */
+    bool made[LEVELS][LEVELS];                                      /**< coefficients of [x level][y level] */
+    union {
+        uint8_t pixels[IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT * 4];
+        int16_t coefficients[IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT * 4 + LEVELS_BYTES]; /**< the picture's, its levels' */
+    };
 } prefilter_t;
 
 /** Forget the last filter. */
 void prefilter_init(prefilter_t *prefilter);
 
 /**
- * Low-pass the picture for a step k, with half-sample mirror borders.
+ * Begin a frame: forget what was made, and have the filter of its step.
  *
- * @param filter  WARP_FILTER_NONE bypasses.
- * @param k_q16   Q16; k <= 1 bypasses the filter; larger than FIR_MAX_K_Q16 counts as that.
- * @return A view into `prefilter`, or *picture itself when bypassed. 2 (2 radius + 1) products per byte.
+ * @param k_q16    Q16; k <= 1 bypasses the low-pass; larger than FIR_MAX_K_Q16 counts as that.
+ * @param splines  Coefficients of the cubic B-spline are wanted.
+ * @return false when nothing is to be filtered: resample the picture itself.
  */
-image_t prefilter_picture(prefilter_t *prefilter, const warp_kernels_t *kernels, const image_t *picture,
-                          warp_filter_t filter, int32_t k_q16);
+bool prefilter_begin(prefilter_t *prefilter, warp_filter_t filter, int32_t k_q16, bool splines);
+
+/**
+ * The filtered picture, with half-sample mirror borders. 2 (2 radius + 1) products per byte.
+ *
+ * @return A view into `prefilter`, valid until the next call.
+ */
+image_t prefilter_pixels(prefilter_t *prefilter, const warp_kernels_t *kernels, const image_t *picture);
+
+/**
+ * The same as coefficients, made when first asked for in a frame.
+ *
+ * @param picture  The picture at that level (levels.h).
+ * @return A view into `prefilter`, valid until prefilter_begin().
+ */
+coefficients_t prefilter_coefficients(prefilter_t *prefilter, const warp_kernels_t *kernels, const image_t *picture,
+                                      int level_x, int level_y);
 
 #endif

@@ -15,7 +15,8 @@ typedef struct {
     warp_t *warp;
     const warp_kernels_t *kernels;
     const image_t *panel;
-    image_t picture;      /* after the prefilter; unset for WARP_LS */
+    image_t picture;      /* as it came, or filtered for WARP_NEAREST; unset for WARP_LS */
+    bool filtered;        /* windows are of coefficients */
     ls_surface_t surface; /* for WARP_LS only */
     int block_log2;       /* of the present rows' blocks */
 } frame_t;
@@ -29,13 +30,16 @@ void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t 
     warp->border[3] = 0;
     warp->resampler = method.resampler;
     const bool is_auto = method.resampler == WARP_AUTO;
-    if (is_auto || warp_splines(method.resampler))
-        window_weights_init(&warp->spline_weights, is_auto ? WARP_MEAN_SPLINE : method.resampler);
-    if (is_auto || !warp_splines(method.resampler))
-        window_weights_init(&warp->byte_weights, is_auto ? WARP_MEAN_CUBIC : method.resampler);
-    prefilter_init(&warp->prefilter);
+    const warp_resampler_t of_coefficients = is_auto ? WARP_MEAN_SPLINE : method.resampler;
+    const warp_resampler_t of_texels = is_auto ? WARP_MEAN_CUBIC : method.resampler;
+    if (!warp_splines(of_texels))
+        window_weights_init(&warp->texel_weights, of_texels, false);
+    if (warp_splines(of_coefficients) || method.filter != WARP_FILTER_NONE)
+        window_weights_init(&warp->coefficient_weights, of_coefficients, true);
     if (method.resampler == WARP_LS)
         ls_init(&warp->ls);
+    else
+        prefilter_init(&warp->prefilter);
 }
 
 void warp_set_ls_weights(warp_t *warp, const ls_weights_t *weights)
@@ -53,7 +57,7 @@ static void fill_border(const warp_t *warp, const image_t *panel, int32_t j, int
             *out++ = warp->border[channel];
 }
 
-/* What the resampler reads; smaller levels and spline coefficients are made when a block asks for them. */
+/* What the resampler reads; smaller levels and coefficients are made when a block asks for them. */
 static void prepare_picture(frame_t *frame, const image_t *picture, int32_t k_q16)
 {
     warp_t *warp = frame->warp;
@@ -61,9 +65,11 @@ static void prepare_picture(frame_t *frame, const image_t *picture, int32_t k_q1
         frame->surface = ls_fit(&warp->ls, frame->kernels, picture, k_q16);
         return;
     }
-    frame->picture = prefilter_picture(&warp->prefilter, frame->kernels, picture, warp->method.filter, k_q16);
+    frame->picture = *picture;
+    frame->filtered = prefilter_begin(&warp->prefilter, warp->method.filter, k_q16, warp_splines(warp->resampler));
+    if (frame->filtered && warp->resampler == WARP_NEAREST)
+        frame->picture = prefilter_pixels(&warp->prefilter, frame->kernels, picture);
     levels_begin(&warp->levels);
-    spline_begin(&warp->spline);
 }
 
 /* Weights and level of every lit block of the block row that begins at row j. */
@@ -81,8 +87,7 @@ static void choose_blocks(frame_t *frame, int32_t j)
 static window_t window_of(const frame_t *frame, const warp_block_t *block)
 {
     warp_t *warp = frame->warp;
-    const bool splines = warp_splines(warp->resampler);
-    const window_weights_t *weights = splines ? &warp->spline_weights : &warp->byte_weights;
+    const window_weights_t *weights = frame->filtered ? &warp->coefficient_weights : &warp->texel_weights;
     const int level_x = block->x.level, level_y = block->y.level;
     window_t window = {
         .x = window_axis(weights, block->x.side),
@@ -93,8 +98,9 @@ static window_t window_of(const frame_t *frame, const warp_block_t *block)
         .level_x = level_x,
         .level_y = level_y,
     };
-    if (splines)
-        window.coefficients = spline_coefficients(&warp->spline, frame->kernels, &window.picture, level_x, level_y);
+    if (frame->filtered)
+        window.coefficients =
+            prefilter_coefficients(&warp->prefilter, frame->kernels, &window.picture, level_x, level_y);
     return window;
 }
 
@@ -116,8 +122,8 @@ static void resample(const frame_t *frame, int32_t j, int32_t begin, int32_t end
         return;
     }
     resample_window_fn *weigh = gray ? kernels->window_gray : kernels->window_xrgb;
-    if (warp_splines(frame->warp->resampler))
-        weigh = gray ? kernels->spline_gray : kernels->spline_xrgb;
+    if (frame->filtered)
+        weigh = gray ? kernels->coefficients_gray : kernels->coefficients_xrgb;
     for (int32_t i = begin; i < end;) {
         const int32_t block = i >> frame->block_log2, block_end = (block + 1) << frame->block_log2;
         const int32_t piece_end = block_end < end ? block_end : end;

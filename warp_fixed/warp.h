@@ -15,7 +15,6 @@
 #include "warp_fixed/ls_fit.h"
 #include "warp_fixed/method.h"
 #include "warp_fixed/prefilter.h"
-#include "warp_fixed/spline.h"
 #include "warp_fixed/window_weights.h"
 
 /** Which weights and which level of the picture serve a block, along both axes. */
@@ -23,20 +22,19 @@ typedef struct {
     window_side_t x, y;
 } warp_block_t;
 
-/** Everything a board needs between and within frames; about 193 MB, most of it never touched by small pictures. */
+/** Everything a board needs between and within frames; about 158 MB, most of it never touched by small pictures. */
 typedef struct {
     warp_method_t method;
     bool step_all;              /**< take k over the whole wall, not only over what lands in the picture */
     uint8_t border[4];          /**< B, G, R, X of unlit pixels; border[0] alone for gray */
     warp_resampler_t resampler; /**< of the present frame: the method's, unless that is WARP_AUTO */
-    window_weights_t byte_weights, spline_weights; /**< those that the method needs */
+    window_weights_t texel_weights, coefficient_weights; /**< those that the method needs */
     grid_t grid;
     footprint_blocks_t blocks;
     warp_block_t block[IMAGE_MAX_WIDTH];
-    prefilter_t prefilter;
     levels_t levels;
     union {
-        spline_t spline;
+        prefilter_t prefilter;
         ls_t ls;
     }; /**< the one that the method needs */
 } warp_t;
@@ -78,7 +76,7 @@ void warp_set_ls_weights(warp_t *warp, const ls_weights_t *weights);
  * No allocation. Time is bounded: a lit pixel reads WINDOW_MAX_TAPS x WINDOW_MAX_TAPS texels at most. Together they
  * read some 36 texels per lit pixel, or where footprints are larger than that a small multiple of the picture's own
  * pixels: 1 to 4 times it, and A / 2 times that when footprints of aspect ratio A stand askew (A is 11 at 85 degrees).
- * Filters, splines and fits cost per picture pixel besides (prefilter.h, spline.h, ls_fit.h); nothing if none is lit.
+ * Filters, splines and fits cost per picture pixel besides (prefilter.h, ls_fit.h); nothing if none is lit.
  */
 bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *report, const homography_t *homography,
                 const image_t *panel, const image_t *picture);

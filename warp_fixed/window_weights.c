@@ -10,8 +10,7 @@
  */
 typedef struct {
     int32_t half_width;             /* of the kernel's support, 1/128 px */
-    int32_t first_sum, second_sum;  /* of the weights */
-    int32_t long_first_sum;         /* of more than WINDOW_SHORT_TAPS */
+    bool positive;                  /* no weight is negative */
     int64_t (*value)(int64_t t);    /* kernel */
     int64_t (*integral)(int64_t t); /* running integral from 0, or NULL when it is only interpolated with */
 } kernel_t;
@@ -73,16 +72,10 @@ static int64_t spline_integral(int64_t t)
 
 static const kernel_t *kernel_of(warp_resampler_t resampler)
 {
-    enum {
-        LONG = FIRST_SUM << LONG_FIRST_SHIFT,
-        LONG_POSITIVE = FIRST_SUM_POSITIVE << LONG_FIRST_SHIFT,
-        SPLINE = 1 << SPLINE_SUM_LOG2
-    };
-    static const kernel_t tent = {ONE, FIRST_SUM, SECOND_SUM, LONG, tent_value, NULL};
-    static const kernel_t keys = {2 * ONE, FIRST_SUM, SECOND_SUM, LONG, keys_value, keys_integral};
-    static const kernel_t spline = {2 * ONE, SPLINE, SPLINE, SPLINE, spline_value, spline_integral};
-    static const kernel_t box = {ONE / 2,       FIRST_SUM_POSITIVE, SECOND_SUM_POSITIVE,
-                                 LONG_POSITIVE, box_value,          box_integral};
+    static const kernel_t tent = {ONE, false, tent_value, NULL};
+    static const kernel_t keys = {2 * ONE, false, keys_value, keys_integral};
+    static const kernel_t spline = {2 * ONE, true, spline_value, spline_integral};
+    static const kernel_t box = {ONE / 2, true, box_value, box_integral};
     switch (resampler) {
     case WARP_LINEAR:
         return &tent;
@@ -139,6 +132,12 @@ static int32_t side_q6(int32_t side)
     return (64 + 2 * ((side - 64) % 32)) << octave;
 }
 
+/* Of windows of texels. */
+static int32_t first_shift_of(int32_t taps)
+{
+    return taps > WINDOW_SHORT_TAPS ? LONG_FIRST_SHIFT : 0;
+}
+
 static void fill_row(window_weights_t *weights, const kernel_t *kernel, int32_t side, int32_t phase)
 {
     const int32_t s = side_q6(side), taps = weights->taps[side];
@@ -150,17 +149,20 @@ static void fill_row(window_weights_t *weights, const kernel_t *kernel, int32_t 
         exact[i] = s == 0 ? kernel->value(t) : kernel->integral(t + s) - kernel->integral(t - s);
     }
     weights->start[side][phase] = (int8_t)start;
-    round_to_sum(&weights->first[at], exact, taps,
-                 taps > WINDOW_SHORT_TAPS ? kernel->long_first_sum : kernel->first_sum);
-    round_to_sum(&weights->second[at], exact, taps, kernel->second_sum);
+    int32_t first_sum = (kernel->positive ? FIRST_SUM_POSITIVE : FIRST_SUM) << first_shift_of(taps);
+    int32_t second_sum = kernel->positive ? SECOND_SUM_POSITIVE : SECOND_SUM;
+    if (weights->of_coefficients)
+        first_sum = second_sum = 1 << COEFFICIENT_SUM_LOG2;
+    round_to_sum(&weights->first[at], exact, taps, first_sum);
+    round_to_sum(&weights->second[at], exact, taps, second_sum);
 }
 
-void window_weights_init(window_weights_t *weights, warp_resampler_t resampler)
+void window_weights_init(window_weights_t *weights, warp_resampler_t resampler, bool of_coefficients)
 {
     const kernel_t *kernel = kernel_of(resampler);
     if (kernel == NULL)
         return;
-    weights->spline = warp_splines(resampler);
+    weights->of_coefficients = of_coefficients;
     const int32_t sides = warp_averages(resampler) ? WINDOW_SIDES : 1;
     uint32_t at = 0;
     for (int32_t side = 0; side < sides; side++) {
@@ -205,6 +207,6 @@ window_axis_t window_axis(const window_weights_t *weights, uint16_t side)
 {
     const uint32_t at = weights->at[side];
     const int32_t taps = weights->taps[side];
-    const int32_t first_shift = weights->spline ? SPLINE_SUM_LOG2 : taps > WINDOW_SHORT_TAPS ? LONG_FIRST_SHIFT : 0;
+    const int32_t first_shift = weights->of_coefficients ? COEFFICIENT_SUM_LOG2 : first_shift_of(taps);
     return (window_axis_t){&weights->first[at], &weights->second[at], weights->start[side], taps, first_shift};
 }

@@ -24,16 +24,18 @@ enum {
 
 /** Weights along one axis for one side: row `phase` of each table has `taps` entries. */
 typedef struct {
-    const int16_t *first;  /**< sum FIRST_SUM, FIRST_SUM_POSITIVE, or that << LONG_FIRST_SHIFT; splines as second */
-    const int16_t *second; /**< sum SECOND_SUM, SECOND_SUM_POSITIVE or for splines 1 << SPLINE_SUM_LOG2 */
+    const int16_t
+        *first; /**< sum FIRST_SUM, FIRST_SUM_POSITIVE, or that << LONG_FIRST_SHIFT; of coefficients as second */
+    const int16_t *second; /**< sum SECOND_SUM, SECOND_SUM_POSITIVE, of coefficients 1 << COEFFICIENT_SUM_LOG2 */
     const int8_t *start;   /**< first texel of the window, from the texel whose centre is at or before the point */
     int32_t taps;          /**< 1 to WINDOW_MAX_TAPS */
-    int32_t first_shift;   /**< 0, or LONG_FIRST_SHIFT when taps > WINDOW_SHORT_TAPS; splines: SPLINE_SUM_LOG2 */
+    int32_t
+        first_shift; /**< 0, or LONG_FIRST_SHIFT when taps > WINDOW_SHORT_TAPS; of coefficients: COEFFICIENT_SUM_LOG2 */
 } window_axis_t;
 
 /** The table of one resampler. */
 typedef struct {
-    bool spline;               /**< the weights are of spline coefficients */
+    bool of_coefficients;      /**< not of texels: kernels.h */
     uint32_t at[WINDOW_SIDES]; /**< of row 0 in the pools */
     uint8_t taps[WINDOW_SIDES];
     int8_t start[WINDOW_SIDES][PHASES];
@@ -47,8 +49,12 @@ typedef struct {
     uint8_t level; /**< the axis is divided by 8^level */
 } window_side_t;
 
-/** Build the table of a resampler. WARP_NEAREST, WARP_LS and WARP_AUTO have none: their table is left as it is. */
-void window_weights_init(window_weights_t *weights, warp_resampler_t resampler);
+/**
+ * Build the table of a resampler. WARP_NEAREST, WARP_LS and WARP_AUTO have none: their table is left as it is.
+ *
+ * @param of_coefficients  For coefficients instead of texels; always for WARP_SPLINE and WARP_MEAN_SPLINE.
+ */
+void window_weights_init(window_weights_t *weights, warp_resampler_t resampler, bool of_coefficients);
 
 /**
  * Choose by the footprint's width (or height): area takes it as the side; mean+cubic and mean+spline take

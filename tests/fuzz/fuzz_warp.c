@@ -201,7 +201,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const image_format_t format = kind & 1 ? IMAGE_GRAY8 : IMAGE_XRGB8888;
     const int32_t guard = kind >> 4, top = range % 120;
     warp->step_all = (kind & 2) != 0;
-    prefilter_init(&warp->prefilter);
+    if (warp->method.resampler != WARP_LS)
+        prefilter_init(&warp->prefilter);
     if (kind & 4)
         homography_by_numbers(&homography, &input);
     else if (!homography_by_wall(&homography, &input))

@@ -100,15 +100,15 @@ int main(void)
             print_frame(&viewpoints[v], &warp_methods[m], IMAGE_XRGB8888);
         }
     }
-    window_weights_init(&warp.byte_weights, WARP_AREA);
-    printf("weights/area %016" PRIx64 "\n", hash_of(warp.byte_weights.second, sizeof(int16_t) * PHASES * 256));
+    window_weights_init(&warp.texel_weights, WARP_AREA, false);
+    printf("weights/area %016" PRIx64 "\n", hash_of(warp.texel_weights.second, sizeof(int16_t) * PHASES * 256));
     for (warp_filter_t filter = WARP_FILTER_GAUSS; filter <= WARP_FILTER_BUTTER; filter++) {
         for (int32_t k_q16 = 70000; k_q16 < 4000000; k_q16 += 700000) {
             static fir_t fir;
             memset(&fir, 0, sizeof(fir));
-            fir_design(&fir, filter, k_q16);
+            fir_design(&fir, filter, k_q16, filter == WARP_FILTER_KAISER);
             printf("filter %d, k %" PRId32 " %016" PRIx64 "\n", (int)filter, k_q16,
-                   hash_of(&fir, offsetof(fir_t, offset)));
+                   hash_of(&fir, sizeof fir));
         }
     }
     print_fits();

@@ -32,7 +32,6 @@ static image_t picture;
 static uint8_t shown[WIDTH * HEIGHT], defined[WIDTH * HEIGHT];
 static double surface[WIDTH * HEIGHT], columns[WIDTH * HEIGHT];
 
-/* A filtered picture is a picture again: what overshoots is cut off. */
 static void low_pass(warp_filter_t filter, double k)
 {
     double taps[PREFILTER_MAX_RADIUS + 1];
@@ -46,7 +45,6 @@ static void low_pass(warp_filter_t filter, double k)
         surface[n] = 0;
         for (int d = -radius; d <= radius; d++)
             surface[n] += taps[abs(d)] * columns[n / WIDTH * WIDTH + mirror_index(n % WIDTH + d, WIDTH)];
-        surface[n] = fmax(0, fmin(255, surface[n]));
     }
 }
 

@@ -22,31 +22,43 @@ enum { WIDTH = 61, HEIGHT = 47 };
 
 static prefilter_t prefilter;
 
-static void check_taps(warp_filter_t filter, int32_t k_q16)
+/* The weights that make spline coefficients, in place. @return the new radius. */
+static int with_splines(double taps[PREFILTER_MAX_RADIUS + 1], int radius)
+{
+    double before[PREFILTER_MAX_RADIUS + 1], total = 0;
+    memcpy(before, taps, sizeof before);
+    for (int d = 0; d <= radius + 8; d++) {
+        taps[d] = 0;
+        for (int n = -8; n <= 8; n++)
+            if (abs(d - n) <= radius)
+                taps[d] += before[abs(d - n)] * sqrt(3) * pow(2 - sqrt(3), abs(n)) * (n % 2 == 0 ? 1 : -1);
+        total += (d == 0 ? 1 : 2) * taps[d];
+    }
+    for (int d = 0; d <= radius + 8; d++)
+        taps[d] /= total;
+    return radius + 8;
+}
+
+/* @return the sum of absolute weights, 1 being that of the weights. */
+static double check_taps(warp_filter_t filter, int32_t k_q16, bool splines)
 {
     double taps[PREFILTER_MAX_RADIUS + 1];
     fir_t fir;
-    fir_design(&fir, filter, k_q16);
-    const int radius = float_taps(taps, filter, k_q16 / 65536.0);
+    fir_design(&fir, filter, k_q16, splines);
+    int radius = float_taps(taps, filter, k_q16 / 65536.0);
+    if (splines)
+        radius = with_splines(taps, radius);
     assert_int_equal(fir.radius, radius);
-    assert_int_equal(fir.first_shift, radius > PREFILTER_SHORT_RADIUS ? LONG_FIRST_SHIFT : 0);
-    int32_t first = fir.first[0], second = fir.second[0], first_size = abs(first), second_size = abs(second);
+    int32_t sum = fir.weight[0], size = abs(fir.weight[0]);
     for (int n = 1; n <= radius; n++) {
-        first += 2 * fir.first[n];
-        second += 2 * fir.second[n];
-        first_size += 2 * abs(fir.first[n]);
-        second_size += 2 * abs(fir.second[n]);
-        if (fabs(fir.second[n] - taps[n] * SECOND_SUM) > 0.52 ||
-            fabs(fir.first[n] - taps[n] * (FIRST_SUM << fir.first_shift)) > 0.51)
-            fail_msg("filter %d, k %f, weight %d: %d and %d, expected %f and %f", filter, k_q16 / 65536.0, n,
-                     fir.first[n], fir.second[n], taps[n] * (FIRST_SUM << fir.first_shift), taps[n] * SECOND_SUM);
+        sum += 2 * fir.weight[n];
+        size += 2 * abs(fir.weight[n]);
+        if (fabs(fir.weight[n] - taps[n] * 16384) > 0.51)
+            fail_msg("filter %d, k %f, weight %d: %d, expected %f", filter, k_q16 / 65536.0, n, fir.weight[n],
+                     taps[n] * 16384);
     }
-    assert_int_equal(first, FIRST_SUM << fir.first_shift);
-    assert_int_equal(second, SECOND_SUM);
-    /* Neither the first pass's 16 bits nor the second's 32 can overflow, whatever the picture. */
-    const int64_t largest = (int64_t)128 * first_size / (1 << fir.first_shift) + 1;
-    assert_true(largest <= INT16_MAX);
-    assert_true(largest * second_size <= INT32_MAX);
+    assert_int_equal(sum, 1 << FILTER_SUM_LOG2);
+    return size / 16384.0;
 }
 
 static void taps_are_the_filters(void **state)
@@ -54,9 +66,14 @@ static void taps_are_the_filters(void **state)
     (void)state;
     const int32_t step[4] = {0, 997, 40009, 300007};
     for (warp_filter_t filter = WARP_FILTER_GAUSS; filter <= WARP_FILTER_BUTTER; filter++) {
+        double largest[2] = {0, 0};
         for (int32_t k_q16 = (1 << 16) + 1; k_q16 <= FIR_MAX_K_Q16; k_q16 += step[filter])
-            check_taps(filter, k_q16);
-        check_taps(filter, FIR_MAX_K_Q16);
+            for (int splines = 0; splines < 2; splines++)
+                largest[splines] = fmax(largest[splines], check_taps(filter, k_q16, splines == 1));
+        check_taps(filter, FIR_MAX_K_Q16, true);
+        printf("filter %d: absolute weights sum to %.4f at most, %.4f with splines\n", filter, largest[0], largest[1]);
+        assert_true(largest[0] <= 1.701); /* what fixed.h builds on */
+        assert_true(largest[1] <= 3.002);
     }
 }
 
@@ -73,27 +90,33 @@ static double float_filtered(const float_fir_t *fir, const uint8_t *pixels, int 
             sum +=
                 fir->taps[abs(dy)] * fir->taps[abs(dx)] *
                 pixels[(mirror_index(at[1] + dy, HEIGHT) * WIDTH + mirror_index(at[0] + dx, WIDTH)) * channels + at[2]];
-    return fmax(0, fmin(255, sum));
+    return sum;
 }
 
-/* The worst difference on a picture of noise without grey levels. */
-static int worst_difference(warp_filter_t filter, int32_t k_q16, int channels, int samples)
+/* The worst difference on a picture of noise without grey levels, of coefficients and of bytes. */
+static double worst_difference(warp_filter_t filter, int32_t k_q16, int channels, int samples)
 {
     static uint8_t pixels[WIDTH * HEIGHT * 4];
     static float_fir_t fir;
     rng_t rng = {(uint64_t)(k_q16 + channels)};
-    int worst = 0;
+    double worst = 0;
     for (int i = 0; i < WIDTH * HEIGHT * channels; i++)
         pixels[i] = (uint8_t)(rng_int(&rng, 0, 1) * 255);
     const image_t picture = {pixels, WIDTH, HEIGHT, WIDTH * channels, (image_format_t)channels};
-    const image_t out = prefilter_picture(&prefilter, &warp_kernels_scalar, &picture, filter, k_q16);
     fir.radius = float_taps(fir.taps, filter, k_q16 / 65536.0);
     for (int c = 0; c < samples; c++) {
         const int at[3] = {(int)rng_int(&rng, 0, WIDTH - 1), (int)rng_int(&rng, 0, HEIGHT - 1),
                            (int)rng_int(&rng, 0, channels - 1)};
-        const int expected = (int)floor(float_filtered(&fir, pixels, channels, at) + 0.5);
-        const int error = abs(image_row(&out, at[1])[at[0] * channels + at[2]] - expected);
-        worst = error > worst ? error : worst;
+        const int32_t place = (at[1] * WIDTH + at[0]) * channels + at[2];
+        const double expected = float_filtered(&fir, pixels, channels, at);
+        assert_true(prefilter_begin(&prefilter, filter, k_q16, false));
+        if (c % 2 == 0) {
+            const coefficients_t out = prefilter_coefficients(&prefilter, &warp_kernels_scalar, &picture, 0, 0);
+            worst = fmax(worst, fabs(COEFFICIENT_MIDDLE + out.data[place] / 16.0 - expected));
+        } else {
+            const image_t out = prefilter_pixels(&prefilter, &warp_kernels_scalar, &picture);
+            worst = fmax(worst, fabs(out.data[place] - fmax(0, fmin(255, expected))) - 0.5);
+        }
     }
     return worst;
 }
@@ -106,13 +129,13 @@ static void pictures_are_filtered(void **state)
     for (warp_filter_t filter = WARP_FILTER_GAUSS; filter <= WARP_FILTER_BUTTER; filter++) {
         for (int n = 0; n < 5; n++) {
             const int32_t k_q16 = (int32_t)lround(ks[n] * 65536);
-            const int gray = worst_difference(filter, k_q16, 1, 300), color = worst_difference(filter, k_q16, 4, 300);
-            printf("filter %d, k %.2f: worst difference %d levels in gray, %d in colour\n", filter, ks[n], gray, color);
-            assert_in_range(gray, 0, 3);
-            assert_in_range(color, 0, 3);
+            const double gray = worst_difference(filter, k_q16, 1, 40), color = worst_difference(filter, k_q16, 4, 40);
+            printf("filter %d, k %.2f: worst difference %.3f levels in gray, %.3f in colour\n", filter, ks[n], gray,
+                   color);
+            assert_true(gray < 0.3 && color < 0.3);
         }
     }
-    assert_in_range(worst_difference(WARP_FILTER_GAUSS, 60 << 16, 4, 20), 0, 1);
+    assert_true(worst_difference(WARP_FILTER_GAUSS, 60 << 16, 4, 4) < 0.5);
 }
 
 /* Black and white where the filter's weights are negative and positive: as far as any picture can overshoot. */
@@ -123,20 +146,21 @@ static void overshoot_saturates(void **state)
     const image_t picture = {pixels, WIDTH, HEIGHT, WIDTH, IMAGE_GRAY8};
     for (int32_t k_q16 = 70000; k_q16 < 200000; k_q16 += 9999) {
         fir_t fir;
-        fir_design(&fir, WARP_FILTER_KAISER, k_q16);
+        fir_design(&fir, WARP_FILTER_KAISER, k_q16, false);
         for (int y = 0; y < HEIGHT; y++) {
             for (int x = 0; x < WIDTH; x++) {
                 const int dx = abs(x - WIDTH / 2), dy = abs(y - HEIGHT / 2);
-                const int wx = dx <= fir.radius ? fir.second[dx] : 0, wy = dy <= fir.radius ? fir.second[dy] : 0;
+                const int wx = dx <= fir.radius ? fir.weight[dx] : 0, wy = dy <= fir.radius ? fir.weight[dy] : 0;
                 pixels[y * WIDTH + x] = (int64_t)wx * wy >= 0 ? 255 : 0;
             }
         }
         prefilter_init(&prefilter);
-        const image_t out = prefilter_picture(&prefilter, &warp_kernels_scalar, &picture, WARP_FILTER_KAISER, k_q16);
+        assert_true(prefilter_begin(&prefilter, WARP_FILTER_KAISER, k_q16, false));
+        const image_t out = prefilter_pixels(&prefilter, &warp_kernels_scalar, &picture);
         assert_int_equal(image_row(&out, HEIGHT / 2)[WIDTH / 2], 255);
         for (int i = 0; i < WIDTH * HEIGHT; i++)
             pixels[i] = (uint8_t)(255 - pixels[i]);
-        (void)prefilter_picture(&prefilter, &warp_kernels_scalar, &picture, WARP_FILTER_KAISER, k_q16);
+        (void)prefilter_pixels(&prefilter, &warp_kernels_scalar, &picture);
         assert_int_equal(image_row(&out, HEIGHT / 2)[WIDTH / 2], 0);
     }
 }
@@ -147,22 +171,25 @@ static void small_k_and_constants_pass(void **state)
     static uint8_t pixels[WIDTH * HEIGHT];
     const image_t picture = {pixels, WIDTH, HEIGHT, WIDTH, IMAGE_GRAY8};
     prefilter_init(&prefilter);
-    assert_ptr_equal(prefilter_picture(&prefilter, &warp_kernels_scalar, &picture, WARP_FILTER_GAUSS, 1 << 16).data,
-                     pixels);
-    assert_ptr_equal(prefilter_picture(&prefilter, &warp_kernels_scalar, &picture, WARP_FILTER_BUTTER, 0).data, pixels);
+    assert_false(prefilter_begin(&prefilter, WARP_FILTER_GAUSS, 1 << 16, false));
+    assert_false(prefilter_begin(&prefilter, WARP_FILTER_BUTTER, 0, false));
+    assert_false(prefilter_begin(&prefilter, WARP_FILTER_NONE, 9 << 16, false));
+    assert_true(prefilter_begin(&prefilter, WARP_FILTER_NONE, 9 << 16, true));
+    assert_true(prefilter_begin(&prefilter, WARP_FILTER_GAUSS, 1 << 15, true));
     for (int level = 0; level < 256; level += 5) {
         memset(pixels, level, sizeof(pixels));
-        const warp_filter_t filter = (warp_filter_t)(1 + level % 3);
-        const image_t out =
-            prefilter_picture(&prefilter, &warp_kernels_scalar, &picture, filter, (1 << 16) + 1 + level * 999);
+        const int32_t k_q16 = (1 << 16) + 1 + level * 999;
+        assert_true(prefilter_begin(&prefilter, (warp_filter_t)(1 + level % 3), k_q16, level % 2 == 0));
+        const coefficients_t out = prefilter_coefficients(&prefilter, &warp_kernels_scalar, &picture, 0, 0);
         for (int i = 0; i < WIDTH * HEIGHT; i++)
-            assert_int_equal(out.data[i], level);
+            assert_int_equal(out.data[i], (level - COEFFICIENT_MIDDLE) * 16);
+        const image_t bytes = prefilter_pixels(&prefilter, &warp_kernels_scalar, &picture);
+        for (int i = 0; i < WIDTH * HEIGHT; i++)
+            assert_int_equal(bytes.data[i], level);
     }
     /* Beyond the largest k the filter stays what it is there. */
-    assert_non_null(prefilter_picture(&prefilter, &warp_kernels_scalar, &picture, WARP_FILTER_GAUSS, INT32_MAX).data);
-    assert_int_equal(prefilter.k_q16, FIR_MAX_K_Q16);
-    assert_ptr_equal(prefilter_picture(&prefilter, &warp_kernels_scalar, &picture, WARP_FILTER_NONE, 9 << 16).data,
-                     pixels);
+    assert_true(prefilter_begin(&prefilter, WARP_FILTER_GAUSS, INT32_MAX, false));
+    assert_int_equal(prefilter.kind.k_q16, FIR_MAX_K_Q16);
 }
 
 /*
@@ -175,14 +202,14 @@ static void weights_follow_k(void **state)
     for (warp_filter_t filter = WARP_FILTER_GAUSS; filter <= WARP_FILTER_BUTTER; filter++) {
         double worst = 0;
         static fir_t before, after;
-        fir_design(&before, filter, 65537);
+        fir_design(&before, filter, 65537, false);
         for (double k = 1.01; k < 30; k *= 1.01) {
-            fir_design(&after, filter, (int32_t)(k * 65536));
+            fir_design(&after, filter, (int32_t)(k * 65536), false);
             double change = 0;
             for (int32_t n = 0; n <= after.radius || n <= before.radius; n++)
                 change += (n == 0 ? 1 : 2) *
-                          abs((n <= after.radius ? after.second[n] : 0) - (n <= before.radius ? before.second[n] : 0));
-            worst = fmax(worst, change / SECOND_SUM);
+                          abs((n <= after.radius ? after.weight[n] : 0) - (n <= before.radius ? before.weight[n] : 0));
+            worst = fmax(worst, change / (1 << FILTER_SUM_LOG2));
             before = after;
         }
         printf("filter %d: weights change by %.4f at most when k grows by 1 %%\n", filter, worst);

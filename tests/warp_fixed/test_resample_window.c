@@ -14,28 +14,32 @@
 #include "tests/support/float_methods.h"
 #include "tests/support/rng.h"
 #include "warp_fixed/kernels_scalar.h"
-#include "warp_fixed/spline.h"
+#include "warp_fixed/prefilter.h"
 
 enum { WIDTH = 160, HEIGHT = 150 };
 
 static const struct {
     warp_resampler_t resampler;
+    bool of_coefficients;
     int32_t sides;
     int levels; /* that the loop may be away from its float definition */
 } loops[] = {
-    {WARP_LINEAR, 1, 1},
-    {WARP_CUBIC, 1, 4},
-    {WARP_SPLINE, 1, 1},
-    {WARP_AREA, WINDOW_SIDES, 2},
-    {WARP_MEAN_CUBIC, WINDOW_SIDES, 4},
-    {WARP_MEAN_SPLINE, WINDOW_SIDES, 1},
+    {WARP_LINEAR, false, 1, 1},
+    {WARP_LINEAR, true, 1, 1},
+    {WARP_CUBIC, false, 1, 4},
+    {WARP_CUBIC, true, 1, 1},
+    {WARP_SPLINE, true, 1, 1},
+    {WARP_AREA, false, WINDOW_SIDES, 2},
+    {WARP_MEAN_CUBIC, false, WINDOW_SIDES, 4},
+    {WARP_MEAN_SPLINE, true, WINDOW_SIDES, 1},
 };
 enum { LOOPS = sizeof loops / sizeof *loops };
 
 static window_weights_t weights;
 static uint8_t gray[WIDTH * HEIGHT], color[WIDTH * HEIGHT * 4];
 static double surface[WIDTH * HEIGHT]; /* what the kernel weighs: gray, or its spline coefficients */
-static spline_t spline;
+static int16_t gray_coefficients[WIDTH * HEIGHT], color_coefficients[WIDTH * HEIGHT * 4];
+static prefilter_t prefilter;
 
 static double float_definition(warp_resampler_t resampler, const double point[2], const double side[2])
 {
@@ -81,71 +85,89 @@ static void make_surface(warp_resampler_t resampler)
         float_spline_coefficients(surface, WIDTH, HEIGHT);
 }
 
-/* After a change of the pixels, spline_begin() must have been called. */
-static window_t window_of(int32_t side_x, int32_t side_y, uint8_t *pixels, image_format_t format)
+/* From gray: those of the spline, or its own levels. */
+static void make_coefficients(warp_resampler_t resampler)
 {
-    const image_t picture = {pixels, WIDTH, HEIGHT, WIDTH * (int32_t)format, format};
-    window_t window = {.x = window_axis(&weights, (uint16_t)side_x),
-                       .y = window_axis(&weights, (uint16_t)side_y),
-                       .picture = picture,
-                       .width = WIDTH,
-                       .height = HEIGHT};
-    if (weights.spline)
-        window.coefficients = spline_coefficients(&spline, &warp_kernels_scalar, &picture, 0, 0);
-    return window;
+    const image_t picture = {gray, WIDTH, HEIGHT, WIDTH, IMAGE_GRAY8};
+    const int16_t *spline = NULL;
+    if (prefilter_begin(&prefilter, WARP_FILTER_NONE, 0, warp_splines(resampler)))
+        spline = prefilter_coefficients(&prefilter, &warp_kernels_scalar, &picture, 0, 0).data;
+    for (int k = 0; k < WIDTH * HEIGHT; k++) {
+        gray_coefficients[k] = (int16_t)(spline != NULL ? spline[k] : (gray[k] - COEFFICIENT_MIDDLE) * 16);
+        for (int channel = 0; channel < 4; channel++)
+            color_coefficients[4 * k + channel] = gray_coefficients[k];
+    }
+}
+
+static window_t window_of(int32_t side_x, int32_t side_y)
+{
+    return (window_t){.x = window_axis(&weights, (uint16_t)side_x),
+                      .y = window_axis(&weights, (uint16_t)side_y),
+                      .picture = {gray, WIDTH, HEIGHT, WIDTH, IMAGE_GRAY8},
+                      .coefficients = {gray_coefficients, WIDTH, HEIGHT, 1},
+                      .width = WIDTH,
+                      .height = HEIGHT};
 }
 
 static uint8_t pixel_at(const window_t *window, int32_t x_q18, int32_t y_q18)
 {
     uint8_t pixel;
-    (weights.spline ? resample_spline_gray_scalar : resample_window_gray_scalar)(&pixel, window, &x_q18, &y_q18, 1);
+    (weights.of_coefficients ? resample_coefficients_gray_scalar : resample_window_gray_scalar)(&pixel, window, &x_q18,
+                                                                                                &y_q18, 1);
     return pixel;
 }
 
 /* Every method stays within `levels` of its float definition at the loop's own positions and sides. */
-static void compare(warp_resampler_t resampler, int32_t sides, int levels)
+static void compare(int loop)
 {
+    const warp_resampler_t resampler = loops[loop].resampler;
+    const int32_t sides = loops[loop].sides;
     int worst = 0;
-    window_weights_init(&weights, resampler);
+    window_weights_init(&weights, resampler, loops[loop].of_coefficients);
     for (uint64_t seed = 1; seed <= 12000; seed++) {
         rng_t rng = {seed};
         if (seed % 2000 == 1) {
             paint((int)(seed / 2000), &rng);
             make_surface(resampler);
-            spline_begin(&spline);
+            make_coefficients(resampler);
         }
         const int32_t side[2] = {(int32_t)rng_int(&rng, 0, sides - 1), (int32_t)rng_int(&rng, 0, sides - 1)};
         const int32_t x = (int32_t)rng_int(&rng, 0, WIDTH * PHASES), y = (int32_t)rng_int(&rng, 0, HEIGHT * PHASES);
         const double point[2] = {(double)x / PHASES, (double)y / PHASES};
         const double sides_px[2] = {float_side(side[0]), float_side(side[1])};
-        const window_t window = window_of(side[0], side[1], gray, IMAGE_GRAY8);
+        const window_t window = window_of(side[0], side[1]);
         const int32_t x_q18 = x << (18 - PHASE_BITS), y_q18 = y << (18 - PHASE_BITS);
         const uint8_t got = pixel_at(&window, x_q18, y_q18);
         const int expected = (int)floor(float_definition(resampler, point, sides_px) + 0.5);
         const int error = got > expected ? got - expected : expected - got;
         worst = error > worst ? error : worst;
-        if (error > levels)
+        if (error > loops[loop].levels)
             fail_msg("seed %lu, method %d, point (%f, %f), sides (%f, %f): %d, expected %d", (unsigned long)seed,
                      resampler, point[0], point[1], sides_px[0], sides_px[1], got, expected);
     }
-    printf("method %d: worst difference %d levels\n", resampler, worst);
+    printf("method %d%s: worst difference %d levels\n", resampler, loops[loop].of_coefficients ? ", coefficients" : "",
+           worst);
 }
 
 static void methods_keep_their_definition(void **state)
 {
     (void)state;
     for (int r = 0; r < LOOPS; r++)
-        compare(loops[r].resampler, loops[r].sides, loops[r].levels);
+        compare(r);
 }
 
 static void weights_sum_exactly_and_fit(void **state)
 {
     (void)state;
     for (int r = 0; r < LOOPS; r++) {
-        const bool is_spline = warp_splines(loops[r].resampler), positive = loops[r].resampler == WARP_AREA;
-        const int32_t first_sum = is_spline ? 1 : positive ? FIRST_SUM_POSITIVE : FIRST_SUM;
-        const int32_t second_sum = is_spline ? 1 << SPLINE_SUM_LOG2 : positive ? SECOND_SUM_POSITIVE : SECOND_SUM;
-        window_weights_init(&weights, loops[r].resampler);
+        const bool of_coefficients = loops[r].of_coefficients, positive = loops[r].resampler == WARP_AREA;
+        int32_t first_sum = positive ? FIRST_SUM_POSITIVE : FIRST_SUM;
+        int32_t second_sum = positive ? SECOND_SUM_POSITIVE : SECOND_SUM;
+        if (of_coefficients) {
+            first_sum = 1;
+            second_sum = 1 << COEFFICIENT_SUM_LOG2;
+        }
+        window_weights_init(&weights, loops[r].resampler, of_coefficients);
         for (int32_t side = 0; side < loops[r].sides; side++) {
             const window_axis_t axis = window_axis(&weights, (uint16_t)side);
             assert_in_range(axis.taps, 1, WINDOW_MAX_TAPS);
@@ -158,7 +180,7 @@ static void weights_sum_exactly_and_fit(void **state)
                     second += axis.second[phase * axis.taps + t];
                     if (axis.first_shift == 0) /* 8-bit: unsigned, or negated and signed */
                         assert_true(positive ? w >= 0 && w <= 255 : -w >= -128 && -w <= 127);
-                    assert_true(w >= 0 || !(is_spline || positive));
+                    assert_true(w >= 0 || !(warp_splines(loops[r].resampler) || positive));
                 }
                 assert_int_equal(first, first_sum << axis.first_shift);
                 assert_int_equal(second, second_sum);
@@ -173,43 +195,40 @@ static void constants_and_identity_are_exact(void **state)
     (void)state;
     rng_t rng = {7};
     for (int r = 0; r < LOOPS; r++) {
-        window_weights_init(&weights, loops[r].resampler);
+        window_weights_init(&weights, loops[r].resampler, loops[r].of_coefficients);
         for (int level = 0; level < 256; level++) {
             memset(gray, level, sizeof(gray));
-            spline_begin(&spline);
+            make_coefficients(loops[r].resampler);
             for (int n = 0; n < 20; n++) {
                 const int32_t side_x = (int32_t)rng_int(&rng, 0, loops[r].sides - 1);
                 const int32_t side_y = (int32_t)rng_int(&rng, 0, loops[r].sides - 1);
-                const window_t window = window_of(side_x, side_y, gray, IMAGE_GRAY8);
+                const window_t window = window_of(side_x, side_y);
                 const int32_t x = (int32_t)rng_int(&rng, -9, WIDTH << 18), y = (int32_t)rng_int(&rng, 0, HEIGHT << 18);
                 assert_int_equal(pixel_at(&window, x, y), level);
             }
         }
         paint(5, &rng);
-        spline_begin(&spline);
+        make_coefficients(loops[r].resampler);
         const uint16_t one = window_side(loops[r].resampler, 1 << 16).side;
-        const window_t window = window_of(one, one, gray, IMAGE_GRAY8);
+        const window_t window = window_of(one, one);
         for (int32_t k = 0; k < WIDTH * HEIGHT; k++)
             assert_int_equal(pixel_at(&window, (k % WIDTH << 18) + (1 << 17), (k / WIDTH << 18) + (1 << 17)), gray[k]);
     }
 }
 
-static void color_is_gray_four_times(warp_resampler_t resampler, resample_window_fn *loop)
+static void color_is_gray_four_times(warp_resampler_t resampler, bool of_coefficients, resample_window_fn *loop)
 {
-    static spline_t color_spline;
     rng_t rng = {11};
     paint(5, &rng);
-    window_weights_init(&weights, resampler);
-    spline_begin(&spline);
-    spline_begin(&color_spline);
-    const image_t picture = {color, WIDTH, HEIGHT, 4 * WIDTH, IMAGE_XRGB8888};
+    make_coefficients(resampler);
+    window_weights_init(&weights, resampler, of_coefficients);
     for (int n = 0; n < 3000; n++) {
         const int32_t side_x = (int32_t)rng_int(&rng, 0, WINDOW_SIDES - 1);
         const int32_t side_y = (int32_t)rng_int(&rng, 0, WINDOW_SIDES - 1);
-        const window_t in_gray = window_of(side_x, side_y, gray, IMAGE_GRAY8);
+        const window_t in_gray = window_of(side_x, side_y);
         window_t in_color = in_gray;
-        in_color.picture = picture;
-        in_color.coefficients = spline_coefficients(&color_spline, &warp_kernels_scalar, &picture, 0, 0);
+        in_color.picture = (image_t){color, WIDTH, HEIGHT, 4 * WIDTH, IMAGE_XRGB8888};
+        in_color.coefficients = (coefficients_t){color_coefficients, WIDTH, HEIGHT, 4};
         const int32_t x = (int32_t)rng_int(&rng, -(1 << 20), (WIDTH << 18) + (1 << 20));
         const int32_t y = (int32_t)rng_int(&rng, -(1 << 20), (HEIGHT << 18) + (1 << 20));
         uint8_t four[4];
@@ -222,8 +241,8 @@ static void color_is_gray_four_times(warp_resampler_t resampler, resample_window
 static void color_is_gray(void **state)
 {
     (void)state;
-    color_is_gray_four_times(WARP_MEAN_CUBIC, resample_window_xrgb_scalar);
-    color_is_gray_four_times(WARP_MEAN_SPLINE, resample_spline_xrgb_scalar);
+    color_is_gray_four_times(WARP_MEAN_CUBIC, false, resample_window_xrgb_scalar);
+    color_is_gray_four_times(WARP_MEAN_SPLINE, true, resample_coefficients_xrgb_scalar);
 }
 
 /* The side chosen for a footprint is the table's nearest; mean+cubic takes sqrt(w^2 - 1); large ones use levels. */
@@ -259,6 +278,7 @@ static void sides_follow_footprints(void **state)
 
 int main(void)
 {
+    prefilter_init(&prefilter);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(weights_sum_exactly_and_fit),      cmocka_unit_test(methods_keep_their_definition),
         cmocka_unit_test(constants_and_identity_are_exact), cmocka_unit_test(color_is_gray),

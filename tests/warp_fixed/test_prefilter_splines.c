@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spline coefficients against the spline's definition: they bring back the pixels, whatever the picture.
-#include "warp_fixed/spline.h"
+#include "warp_fixed/prefilter.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,7 +18,7 @@
 
 enum { MAX_WIDTH = 90, MAX_HEIGHT = 70 };
 
-static spline_t spline;
+static prefilter_t prefilter;
 static uint8_t pixels[MAX_WIDTH * MAX_HEIGHT * 4];
 
 static image_t picture_of(int32_t width, int32_t height, image_format_t format)
@@ -29,7 +29,7 @@ static image_t picture_of(int32_t width, int32_t height, image_format_t format)
 static double coefficient(const coefficients_t *c, int32_t x, int32_t y, int32_t channel)
 {
     const int32_t at = mirror_index(y, c->height) * c->width + mirror_index(x, c->width);
-    return SPLINE_MIDDLE + c->data[at * c->channels + channel] / 16.0;
+    return COEFFICIENT_MIDDLE + c->data[at * c->channels + channel] / 16.0;
 }
 
 /* The spline at a pixel's centre: (1, 4, 1) / 6 along both axes. */
@@ -57,8 +57,8 @@ static void the_spline_goes_through_the_pixels(void **state)
             pixels[k] = (uint8_t)(seed % 3 == 0   ? rng_int(&rng, 0, 1) * 255
                                   : seed % 3 == 1 ? rng_int(&rng, 0, 255)
                                                   : (k / channels + k / channels / width) % 2 * 255);
-        spline_begin(&spline);
-        const coefficients_t made = spline_coefficients(&spline, &warp_kernels_scalar, &picture, 0, 0);
+        (void)prefilter_begin(&prefilter, WARP_FILTER_NONE, 0, true);
+        const coefficients_t made = prefilter_coefficients(&prefilter, &warp_kernels_scalar, &picture, 0, 0);
         for (int32_t k = 0; k < width * height * channels; k++) {
             const int32_t x = k / channels % width, y = k / channels / width, channel = k % channels;
             const double error = fabs(value_at(&made, x, y, channel) - pixels[k]);
@@ -79,8 +79,8 @@ static void the_worst_picture_fits(void **state)
     for (int sign = 0; sign < 2; sign++) {
         for (int32_t k = 0; k < 41 * 41; k++)
             pixels[k] = (k % 41 + k / 41) % 2 == sign ? 255 : 0;
-        spline_begin(&spline);
-        const coefficients_t made = spline_coefficients(&spline, &warp_kernels_scalar, &picture, 0, 0);
+        (void)prefilter_begin(&prefilter, WARP_FILTER_NONE, 0, true);
+        const coefficients_t made = prefilter_coefficients(&prefilter, &warp_kernels_scalar, &picture, 0, 0);
         const double expected = 127.5 + (sign == 0 ? 9 : -9) * 127.5;
         assert_true(fabs(coefficient(&made, 20, 20, 0) - expected) < 0.2);
     }
@@ -92,14 +92,14 @@ static coefficients_t level_of(int n, int grey)
     const int level_x = n / LEVELS, level_y = n % LEVELS;
     const image_t picture = picture_of(MAX_WIDTH >> 3 * level_x, MAX_HEIGHT >> 3 * level_y, IMAGE_GRAY8);
     memset(pixels, grey, sizeof pixels);
-    return spline_coefficients(&spline, &warp_kernels_scalar, &picture, level_x, level_y);
+    return prefilter_coefficients(&prefilter, &warp_kernels_scalar, &picture, level_x, level_y);
 }
 
 static void check_level(int n, int grey, int expected)
 {
     const coefficients_t made = level_of(n, grey);
     for (int32_t k = 0; k < made.width * made.height; k++)
-        if (made.data[k] != (expected - SPLINE_MIDDLE) * 16)
+        if (made.data[k] != (expected - COEFFICIENT_MIDDLE) * 16)
             fail_msg("level %d, %d: %d at %d, expected grey %d", n / LEVELS, n % LEVELS, made.data[k], k, expected);
 }
 
@@ -108,7 +108,7 @@ static void levels_have_their_own(void **state)
 {
     (void)state;
     for (int frame = 0; frame < 2; frame++) {
-        spline_begin(&spline);
+        (void)prefilter_begin(&prefilter, WARP_FILTER_NONE, 0, true);
         for (int n = 0; n < LEVELS * LEVELS; n++)
             check_level(n, 50 + 20 * n + frame, 50 + 20 * n + frame);
         for (int n = 0; n < LEVELS * LEVELS; n++)
@@ -118,6 +118,7 @@ static void levels_have_their_own(void **state)
 
 int main(void)
 {
+    prefilter_init(&prefilter);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_spline_goes_through_the_pixels),
         cmocka_unit_test(the_worst_picture_fits),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A window of spline coefficients around each point, weighed along both axes.
+// A window of coefficients around each point, weighed along both axes.
 #include <string.h>
 
 #include "warp_fixed/fixed.h"
@@ -40,27 +40,27 @@ static inline void weigh(uint8_t *out, const window_t *window, int32_t x_q18, in
 
     int32_t v[4 * WINDOW_MAX_TAPS];
     for (int32_t u = 0; u < nx * channels; u++)
-        v[u] = 1 << (SPLINE_SUM_LOG2 - 1);
+        v[u] = 1 << (COEFFICIENT_SUM_LOG2 - 1);
     for (int32_t t = 0; t < ny; t++)
         for (int32_t u = 0; u < nx * channels; u++)
             v[u] += y.first[t] * coefficients[t * stride + u];
     for (int32_t channel = 0; channel < channels; channel++) {
         int32_t sum = 0;
         for (int32_t u = 0; u < nx; u++)
-            sum += x.second[u] * (v[u * channels + channel] >> SPLINE_SUM_LOG2);
-        out[channel] = pixel_from_spline(sum);
+            sum += x.second[u] * (v[u * channels + channel] >> COEFFICIENT_SUM_LOG2);
+        out[channel] = pixel_from_centred(sum, COEFFICIENT_SUM_LOG2 + COEFFICIENT_BITS);
     }
 }
 
-void resample_spline_gray_scalar(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
-                                 const int32_t *restrict y_q18, int32_t count)
+void resample_coefficients_gray_scalar(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
+                                       const int32_t *restrict y_q18, int32_t count)
 {
     for (int32_t k = 0; k < count; k++)
         weigh(out + k, window, x_q18[k], y_q18[k], 1);
 }
 
-void resample_spline_xrgb_scalar(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
-                                 const int32_t *restrict y_q18, int32_t count)
+void resample_coefficients_xrgb_scalar(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
+                                       const int32_t *restrict y_q18, int32_t count)
 {
     for (int32_t k = 0; k < count; k++)
         weigh(out + 4 * k, window, x_q18[k], y_q18[k], 4);
