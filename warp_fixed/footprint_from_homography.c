@@ -1,98 +1,237 @@
 // SPDX-License-Identifier: Apache-2.0
 // Homography -> how large projector pixels are in the picture: the step k of a frame, the sides of each block.
+//
+// Why one pair of pixels stands for its line (a row or a column). Along a line x, y and w are linear in the pixel, so
+// neighbours' picture points differ by (x' w - x w', y' w - y w') / (w w'), whose numerator is the same all along the
+// line and linear from line to line: the largest step of a line is where w is least, at an end of the line's part in
+// the picture. From one line to the next, an edge of the picture cuts lines ever further on or ever further back, so
+// following it takes no more steps over all lines than there are pixels in one.
 #include "warp_fixed/footprint_from_homography.h"
 
 #include "warp_fixed/fixed.h"
 #include "warp_fixed/real_vector.h"
 
-enum { MAX_VERTICES = 12 };
+enum { FORM_BITS = 60, MAX_EDGES = 5 };
 
-/* Convex, its vertices (u, v, 1) on the panel. */
+/* Rounding along and across to integers moves a form by at most 4096 over the panel, and the reals' own errors less. */
+static const int64_t form_error = 1 << 14;
+
+/* Value of a linear form at pixel i of line j: along * i + across * j + first. |value| <= 2^60 on the panel. */
 typedef struct {
-    int count;
-    real_t at[MAX_VERTICES][3];
-} polygon_t;
+    int64_t along, across, first;
+} form_t;
 
-static polygon_t polygon_of_centres(const homography_t *h)
+/* The panel's pixel centres, line by line. */
+typedef struct {
+    int axis; /* 0: lines are rows, 1: columns */
+    int32_t length, count;
+    form_t w, change[2];     /* change / (w w') is the way from a pixel's point to the next one's, */
+    int32_t change_exponent; /* * 2^change_exponent, but for w's scale, which both axes share */
+} lines_t;
+
+/* Where on a line a form becomes >= 0: pixel `at`, counted from the line's end when from_end, has `value`. */
+typedef struct {
+    int64_t along, across, value;
+    int32_t at;
+    bool from_end;
+} edge_t;
+
+/* mantissa * 2^exponent; 2^31 <= mantissa < 2^32, or 0. */
+typedef struct {
+    uint32_t mantissa;
+    int32_t exponent;
+} short_t;
+
+/* The pair of pixels (u, v) and its right or lower neighbour; their points are sqrt(square / depth) apart. */
+typedef struct {
+    short_t square, depth;
+    int axis;
+    int32_t uv[2];
+} pair_t;
+
+/* What |form| cannot exceed on the panel. */
+static real_t form_bound(const homography_t *h, const real_t form[3])
 {
-    const real_t low = real_from_int(1, -1), one = real_from_int(1, 0);
-    const real_t right = real_from_int(2 * (int64_t)h->panel_width - 1, -1);
-    const real_t bottom = real_from_int(2 * (int64_t)h->panel_height - 1, -1);
-    return (polygon_t){4, {{low, low, one}, {right, low, one}, {right, bottom, one}, {low, bottom, one}}};
+    const real_t along = real_mul(real_abs(form[0]), real_from_int(h->panel_width, 0));
+    const real_t across = real_mul(real_abs(form[1]), real_from_int(h->panel_height, 0));
+    return real_add(real_add(along, across), real_abs(form[2]));
 }
 
-/* Sutherland and Hodgman's clip of a polygon to form . (u, v, 1) >= 0: adds one vertex at most. */
-static void polygon_clip(polygon_t *polygon, const real_t form[3])
+static int32_t form_bits(real_t bound)
 {
-    polygon_t out = {.count = 0};
-    for (int i = 0; i < polygon->count; i++) {
-        const real_t *here = polygon->at[i], *next = polygon->at[(i + 1) % polygon->count];
-        const real_t d_here = vector_dot(form, here), d_next = vector_dot(form, next);
-        const bool in_here = real_sign(d_here) >= 0, in_next = real_sign(d_next) >= 0;
-        if (in_here) {
-            for (int k = 0; k < 3; k++)
-                out.at[out.count][k] = here[k];
-            out.count++;
-        }
-        if (in_here != in_next) {
-            const real_t part = real_div(d_here, real_sub(d_here, d_next));
-            for (int k = 0; k < 2; k++)
-                out.at[out.count][k] = real_add(here[k], real_mul(part, real_sub(next[k], here[k])));
-            out.at[out.count][2] = real_from_int(1, 0);
-            out.count++;
-        }
-    }
-    *polygon = out;
+    return FORM_BITS - (bound.exponent + 63);
 }
 
-/* The larger column norm of the Jacobian at (u, v, 1), Q16; saturated where the depth is not positive. */
-static int32_t larger_column_q16(const homography_t *h, const real_t at[3])
+static form_t form_from_reals(const real_t form[3], int axis, real_t bound)
 {
-    const real_t w = vector_dot(h->row[2], at);
-    if (real_sign(w) <= 0)
-        return FOOTPRINT_MAX_STEP_Q16;
-    const real_t over = real_div(real_from_int(1, 0), w);
-    real_t largest = real_from_int(0, 0);
-    for (int column = 0; column < 2; column++) {
-        real_t square = real_from_int(0, 0);
-        for (int a = 0; a < 2; a++) {
-            const real_t point = real_mul(vector_dot(h->row[a], at), over);
-            const real_t slope = real_mul(real_sub(h->row[a][column], real_mul(point, h->row[2][column])), over);
-            square = real_add(square, real_mul(slope, slope));
-        }
-        if (real_less(largest, square))
-            largest = square;
-    }
-    return (int32_t)real_to_fixed(real_sqrt(largest), 16, FOOTPRINT_MAX_STEP_Q16);
+    const int32_t bits = form_bits(bound);
+    const int64_t limit = (int64_t)1 << FORM_BITS;
+    const real_t first = real_add(form[2], real_scale(real_add(form[0], form[1]), -1));
+    return (form_t){real_to_fixed(form[axis], bits, limit), real_to_fixed(form[1 - axis], bits, limit),
+                    real_to_fixed(first, bits, limit)};
 }
 
-static int32_t largest_step_q16(const homography_t *h, const polygon_t *polygon)
+static int64_t form_at(const form_t *form, int32_t i, int32_t j)
 {
-    int32_t largest = 0;
-    for (int i = 0; i < polygon->count; i++) {
-        const int32_t step = larger_column_q16(h, polygon->at[i]);
-        largest = step > largest ? step : largest;
+    return form->along * i + form->across * j + form->first;
+}
+
+static int64_t form_least(const form_t *form, const lines_t *lines)
+{
+    return form_at(form, form->along < 0 ? lines->length - 1 : 0, form->across < 0 ? lines->count - 1 : 0);
+}
+
+static void lines_from_homography(lines_t *lines, const homography_t *h, int axis)
+{
+    lines->axis = axis;
+    lines->length = axis == 0 ? h->panel_width : h->panel_height;
+    lines->count = axis == 0 ? h->panel_height : h->panel_width;
+    lines->w = form_from_reals(h->row[2], axis, form_bound(h, h->row[2]));
+
+    real_t change[2][3], bound = real_from_int(0, 0);
+    for (int a = 0; a < 2; a++) {
+        for (int k = 0; k < 3; k++)
+            change[a][k] = real_sub(real_mul(h->row[a][axis], h->row[2][k]), real_mul(h->row[2][axis], h->row[a][k]));
+        bound = real_add(bound, form_bound(h, change[a]));
     }
-    return largest;
+    for (int a = 0; a < 2; a++)
+        lines->change[a] = form_from_reals(change[a], axis, bound);
+    lines->change_exponent = -form_bits(bound);
+}
+
+/* Edges that cut the panel: of the half-planes in front of the viewer and on the picture's side of its four edges. */
+static int edges_from_homography(edge_t edge[MAX_EDGES], const homography_t *h, const lines_t *lines)
+{
+    const int32_t size[2] = {h->picture_width, h->picture_height};
+    form_t form[MAX_EDGES];
+    for (int a = 0; a < 2; a++) {
+        real_t beyond[3];
+        for (int k = 0; k < 3; k++)
+            beyond[k] = real_sub(real_mul(real_from_int(size[a], 0), h->row[2][k]), h->row[a][k]);
+        form[2 * a] = form_from_reals(h->row[a], lines->axis, form_bound(h, h->row[a]));
+        form[2 * a + 1] = form_from_reals(beyond, lines->axis, form_bound(h, beyond));
+        form[2 * a].first += form_error; /* a centre on the picture's edge is in it */
+        form[2 * a + 1].first += form_error;
+    }
+    form[4] = lines->w;
+    form[4].first -= form_error; /* depth 0 is behind */
+
+    int count = 0;
+    for (int e = 0; e < MAX_EDGES; e++) {
+        const form_t *f = &form[e];
+        if (form_least(f, lines) >= 0)
+            continue;
+        if (f->along >= 0)
+            edge[count++] = (edge_t){f->along, f->across, f->first, 0, false};
+        else
+            edge[count++] = (edge_t){-f->along, f->across, form_at(f, lines->length - 1, 0), 0, true};
+    }
+    return count;
+}
+
+/* @return The first pixel of this line with value >= 0, `length` when none has; the edge goes on to the next line. */
+static int32_t edge_next(edge_t *edge, int32_t length)
+{
+    int64_t value = edge->value;
+    int32_t at = edge->at;
+    for (; at > 0 && value >= edge->along; at--)
+        value -= edge->along;
+    for (; at < length && value < 0; at++)
+        value += edge->along;
+    edge->at = at;
+    edge->value = value + edge->across;
+    return at;
+}
+
+static short_t short_from_wide(uint128_t wide)
+{
+    const uint64_t high = (uint64_t)(wide >> 64), low = (uint64_t)wide;
+    if (high == 0 && low == 0)
+        return (short_t){0, 0};
+    const int bits = high != 0 ? 128 - __builtin_clzll(high) : 64 - __builtin_clzll(low);
+    return (short_t){(uint32_t)(bits > 32 ? wide >> (bits - 32) : wide << (32 - bits)), bits - 32};
+}
+
+/* @return Is pair a's distance larger, but for 2^-29 of it? */
+static bool pair_larger(const pair_t *a, const pair_t *b)
+{
+    const uint64_t left = (uint64_t)a->square.mantissa * b->depth.mantissa;
+    const uint64_t right = (uint64_t)b->square.mantissa * a->depth.mantissa;
+    if (left == 0 || right == 0) /* depth is never 0 */
+        return left > right;
+    const int32_t lead = a->square.exponent + b->depth.exponent - b->square.exponent - a->depth.exponent;
+    const int shift = 2 + clamp_i32(lead, -2, 2); /* both are in [2^62, 2^64): a lead of 2 decides */
+    return (uint128_t)left << shift > (uint128_t)right << 2;
+}
+
+/* Replace *largest by a larger pair of neighbours that the edges let through, if there is one. */
+static void find_largest(pair_t *largest, const lines_t *lines, edge_t *edge, int edges)
+{
+    for (int32_t j = 0; j < lines->count; j++) {
+        int32_t first = 0, last = lines->length - 1;
+        for (int e = 0; e < edges; e++) {
+            const int32_t at = edge_next(&edge[e], lines->length);
+            if (edge[e].from_end)
+                last = lines->length - 1 - at < last ? lines->length - 1 - at : last;
+            else
+                first = at > first ? at : first;
+        }
+        if (first >= last)
+            continue;
+        const int32_t i = lines->w.along > 0 ? first : last - 1;
+        const int64_t w = form_at(&lines->w, i, j);
+        const int64_t x = form_at(&lines->change[0], 0, j), y = form_at(&lines->change[1], 0, j);
+        const short_t once = short_from_wide((uint128_t)w * (uint64_t)(w + lines->w.along));
+        pair_t pair = {.square = short_from_wide((uint128_t)((int128_t)x * x + (int128_t)y * y)),
+                       .depth = short_from_wide((uint128_t)once.mantissa * once.mantissa),
+                       .axis = lines->axis};
+        pair.square.exponent += 2 * lines->change_exponent;
+        pair.depth.exponent += 2 * once.exponent;
+        pair.uv[lines->axis] = i;
+        pair.uv[1 - lines->axis] = j;
+        if (pair_larger(&pair, largest))
+            *largest = pair;
+    }
+}
+
+static int32_t distance_q16(const homography_t *h, const pair_t *pair)
+{
+    if (pair->square.mantissa == 0)
+        return 0;
+    real_t point[2][2];
+    for (int end = 0; end < 2; end++) {
+        const int64_t u_half = 2 * (int64_t)(pair->uv[0] + (end == 1 && pair->axis == 0)) + 1;
+        const int64_t v_half = 2 * (int64_t)(pair->uv[1] + (end == 1 && pair->axis == 1)) + 1;
+        const real_t at[3] = {real_from_int(u_half, -1), real_from_int(v_half, -1), real_from_int(1, 0)};
+        const real_t w = vector_dot(h->row[2], at);
+        for (int a = 0; a < 2; a++)
+            point[end][a] = real_div(vector_dot(h->row[a], at), w);
+    }
+    real_t square = real_from_int(0, 0);
+    for (int a = 0; a < 2; a++) {
+        const real_t way = real_sub(point[1][a], point[0][a]);
+        square = real_add(square, real_mul(way, way));
+    }
+    return (int32_t)real_to_fixed(real_sqrt(square), 16, FOOTPRINT_MAX_STEP_Q16);
 }
 
 footprint_step_t footprint_step(const homography_t *homography)
 {
-    polygon_t polygon = polygon_of_centres(homography);
-    footprint_step_t step;
-    step.all_q16 = largest_step_q16(homography, &polygon);
-
-    const int32_t size[2] = {homography->picture_width, homography->picture_height};
-    polygon_clip(&polygon, homography->row[2]);
-    for (int a = 0; a < 2; a++) {
-        real_t beyond[3];
-        for (int k = 0; k < 3; k++)
-            beyond[k] = real_sub(real_mul(real_from_int(size[a], 0), homography->row[2][k]), homography->row[a][k]);
-        polygon_clip(&polygon, homography->row[a]);
-        polygon_clip(&polygon, beyond);
+    const pair_t none = {.square = {0, 0}, .depth = {(uint32_t)1 << 31, 0}};
+    pair_t in = none, all = none;
+    bool in_front = true;
+    for (int axis = 0; axis < 2; axis++) {
+        lines_t lines;
+        edge_t edge[MAX_EDGES];
+        lines_from_homography(&lines, homography, axis);
+        const int edges = edges_from_homography(edge, homography, &lines);
+        in_front = form_least(&lines.w, &lines) >= form_error;
+        find_largest(&in, &lines, edge, edges);
+        if (in_front)
+            find_largest(&all, &lines, NULL, 0);
     }
-    step.in_q16 = largest_step_q16(homography, &polygon);
-    return step;
+    return (footprint_step_t){distance_q16(homography, &in),
+                              in_front ? distance_q16(homography, &all) : FOOTPRINT_MAX_STEP_Q16};
 }
 
 /* sqrt(a^2 + b^2), |a|, |b| <= 2^31: the sum of squares is at most 2^63. */

@@ -12,14 +12,14 @@ enum { FOOTPRINT_BAND = 16, FOOTPRINT_MAX_STEP_Q16 = 4096 << 16 };
 
 /** Step k of the non-uniform pattern (eq 4, 5), Q16 picture pixels. */
 typedef struct {
-    int32_t in_q16;  /**< over neighbours that both land in the picture; 0 when there are none */
+    int32_t in_q16;  /**< over neighbours that both land in the picture; 0 when there is no such pair */
     int32_t all_q16; /**< over the whole panel; FOOTPRINT_MAX_STEP_Q16 when part of it is behind the viewer */
 } footprint_step_t;
 
 /**
- * The worst sampling step in closed form: the larger column norm of the Jacobian, over the vertices of the polygon of
- * pixel centres, for in_q16 clipped to the picture. Never below the exhaustive maximum of neighbour distances; above
- * it by the change of the Jacobian over half a pixel. Saturates at FOOTPRINT_MAX_STEP_Q16.
+ * The worst sampling step: the largest distance in the picture of two pixel centres that are neighbours in a row or a
+ * column of the panel, exact to 1/65536 px (centres within 2^-40 of the panel's reach of the picture's edge are in it).
+ * Saturates at FOOTPRINT_MAX_STEP_Q16. O(panel's width + height): one pair of each row and column can be the largest.
  */
 footprint_step_t footprint_step(const homography_t *homography);
 

@@ -41,7 +41,7 @@ typedef struct {
 
 /** What a frame turned out to be, for telemetry and evaluation. */
 typedef struct {
-    int32_t k_in_q16;           /**< step k over pixels in the picture (eq 4, 5), closed form; 0 when none is */
+    int32_t k_in_q16;           /**< step k over pixels in the picture (eq 4, 5); 0 when none is */
     int32_t k_all_q16;          /**< step k over the whole wall; saturates when part of it is behind the viewer */
     int32_t lit_pixels;         /**< panel pixels that show picture */
     warp_resampler_t resampler; /**< that was used: the method's, or WARP_AUTO's choice */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Step k in closed form against the exhaustive search, and the sides of blocks against the float Jacobian.
+// Step k against the exhaustive search, and the sides of blocks against the float Jacobian.
 #include "warp_fixed/footprint_from_homography.h"
 
 #include <setjmp.h>
@@ -36,51 +36,138 @@ static void turned_scene(oracle_scene_t *scene, double degrees, int32_t panel_wi
     assert_true(oracle_scene(scene));
 }
 
-/* Largest distance of neighbours' picture points; `in` counts only pairs that both land in the picture. */
-static void exhaustive_step(const oracle_scene_t *scene, double *in, double *all)
+/* Largest distances of neighbours' picture points. */
+typedef struct {
+    double surely_in, maybe_in; /* without and with points within 10^-6 px of the picture's edge */
+    double all;                 /* the limit when part of the panel is behind the viewer */
+} exhaustive_t;
+
+/* How far inside the picture a point is; below 0 outside and behind the viewer. */
+static long double inside_px(const oracle_scene_t *scene, const long double xy[2], long double depth)
 {
-    *in = *all = 0;
     const camera_t *camera = &scene->c.camera;
+    if (depth <= 0)
+        return -1;
+    return fminl(fminl(xy[0], camera->width - xy[0]), fminl(xy[1], camera->height - xy[1]));
+}
+
+static exhaustive_t exhaustive_step(const oracle_scene_t *scene)
+{
+    const double limit = FOOTPRINT_MAX_STEP_Q16 / 65536.0;
+    exhaustive_t found = {0, 0, 0};
     for (int32_t j = 0; j < scene->c.corners.panel_height; j++) {
         for (int32_t i = 0; i < scene->c.corners.panel_width; i++) {
             long double here[2], depth;
             oracle_point(&scene->exact, i + 0.5L, j + 0.5L, here, &depth);
+            if (depth <= 0)
+                found.all = limit;
             for (int next = 0; next < 2; next++) {
                 long double there[2], depth_there;
                 const int32_t i2 = i + (next == 0), j2 = j + (next == 1);
                 if (i2 >= scene->c.corners.panel_width || j2 >= scene->c.corners.panel_height)
                     continue;
                 oracle_point(&scene->exact, i2 + 0.5L, j2 + 0.5L, there, &depth_there);
-                const double distance = (double)hypotl(there[0] - here[0], there[1] - here[1]);
-                const bool both_in = here[0] >= 0 && here[0] <= camera->width && here[1] >= 0 &&
-                                     here[1] <= camera->height && there[0] >= 0 && there[0] <= camera->width &&
-                                     there[1] >= 0 && there[1] <= camera->height;
-                *all = fmax(*all, distance);
-                if (both_in)
-                    *in = fmax(*in, distance);
+                const double distance = fmin(limit, (double)hypotl(there[0] - here[0], there[1] - here[1]));
+                const long double inside = fminl(inside_px(scene, here, depth), inside_px(scene, there, depth_there));
+                found.all = fmax(found.all, distance);
+                if (inside >= -1e-6L)
+                    found.maybe_in = fmax(found.maybe_in, distance);
+                if (inside >= 1e-6L)
+                    found.surely_in = fmax(found.surely_in, distance);
             }
+        }
+    }
+    return found;
+}
+
+static bool step_agrees(int32_t found_q16, double least, double most)
+{
+    return found_q16 >= least * 65536 - 1 && found_q16 <= (most > 0 ? most * 65536 + 1 : 0);
+}
+
+static void check_step(const oracle_scene_t *scene, uint64_t seed, const exhaustive_t *expected)
+{
+    const footprint_step_t step = footprint_step(&scene->homography);
+    if (!step_agrees(step.in_q16, expected->surely_in, expected->maybe_in) ||
+        !step_agrees(step.all_q16, expected->all, expected->all))
+        fail_msg("seed %lu, panel %d x %d: k %.6f, expected %.6f to %.6f; of the whole wall %.6f, expected %.6f",
+                 (unsigned long)seed, scene->c.corners.panel_width, scene->c.corners.panel_height,
+                 step.in_q16 / 65536.0, expected->surely_in, expected->maybe_in, step.all_q16 / 65536.0, expected->all);
+}
+
+/* Panels from one pixel to 480 x 270; every fourth viewer looks anywhere, also away. */
+static void random_step_case(oracle_case_t *c, rng_t *rng)
+{
+    oracle_random_case(c, rng);
+    const int64_t most = rng_int(rng, 0, 1) == 0 ? 8 : 77;
+    const bool large = rng_int(rng, 0, 39) == 0;
+    c->corners.panel_width = large ? 480 : rng_int(rng, 0, 9) == 0 ? 1 : (int32_t)rng_int(rng, 1, most);
+    c->corners.panel_height = large ? 270 : rng_int(rng, 0, 9) == 0 ? 1 : (int32_t)rng_int(rng, 1, most);
+    if (rng_int(rng, 0, 3) == 0)
+        for (int k = 0; k < 4; k++)
+            c->pose.quaternion_q30[k] = (int32_t)rng_int(rng, -(1 << 30), 1 << 30) | 1;
+}
+
+static void step_is_the_exhaustive_one(void **state)
+{
+    (void)state;
+    long none = 0, part = 0, whole = 0, behind = 0;
+    for (uint64_t seed = 1; seed <= 6000; seed++) {
+        rng_t rng = {seed};
+        oracle_scene_t scene;
+        random_step_case(&scene.c, &rng);
+        assert_true(oracle_scene(&scene));
+        const exhaustive_t expected = exhaustive_step(&scene);
+        check_step(&scene, seed, &expected);
+        none += expected.maybe_in <= 0;
+        part += expected.maybe_in > 0 && expected.maybe_in < expected.all;
+        whole += expected.maybe_in > 0 && expected.maybe_in >= expected.all;
+        behind += expected.all * 65536 >= FOOTPRINT_MAX_STEP_Q16;
+    }
+    printf("no pair in the picture %ld times, not the wall's widest %ld, the widest %ld; partly behind %ld\n", none,
+           part, whole, behind);
+    assert_true(none > 100 && part > 100 && whole > 100 && behind > 100);
+}
+
+static void step_of_turned_walls_is_the_exhaustive_one(void **state)
+{
+    (void)state;
+    for (int width = 16; width <= 480; width *= width < 240 ? 15 : 2) {
+        for (int degrees = 0; degrees <= 75; degrees += 15) {
+            oracle_scene_t scene;
+            turned_scene(&scene, degrees, width, 480);
+            const exhaustive_t expected = exhaustive_step(&scene);
+            check_step(&scene, (uint64_t)degrees, &expected);
         }
     }
 }
 
-static void closed_form_is_just_above_the_exhaustive_step(void **state)
+/* Pixels of 0.7 m, 2.1 m away, one picture pixel wide; the outermost centres on the picture's edge, or past it. */
+static void centres_on_the_picture_s_edge_are_in_it(void **state)
 {
     (void)state;
-    const double limit[2] = {1.009, 1.017}; /* half a pixel is more of a small panel */
-    const int32_t panel[2] = {1920, 480};
-    for (int s = 0; s < 2; s++) {
-        for (int degrees = 0; degrees <= 60; degrees += 15) {
-            oracle_scene_t scene;
-            double in, all;
-            turned_scene(&scene, degrees, panel[s], 480);
-            exhaustive_step(&scene, &in, &all);
-            const footprint_step_t step = footprint_step(&scene.homography);
-            const double in_ratio = step.in_q16 / 65536.0 / in, all_ratio = step.all_q16 / 65536.0 / all;
-            printf("panel %d, %d degrees: k %.4f (exhaustive %.4f, x %.4f), of the whole wall %.4f (x %.4f)\n",
-                   panel[s], degrees, step.in_q16 / 65536.0, in, in_ratio, step.all_q16 / 65536.0, all_ratio);
-            assert_true(in_ratio > 0.99999 && in_ratio < limit[s]);
-            assert_true(all_ratio > 0.99999 && all_ratio < limit[s]);
-        }
+    for (int32_t size = 2; size <= 60; size++) {
+        const int32_t half_um = 350000 * size;
+        oracle_scene_t scene = {
+            .c = {.corners = {.panel_width = size,
+                              .panel_height = size,
+                              .corner_um = {{-half_um, -half_um, 0},
+                                            {half_um, -half_um, 0},
+                                            {half_um, half_um, 0},
+                                            {-half_um, half_um, 0}},
+                              .corner_known = {true, true, true, true}},
+                  .camera = {size - 1, size - 1, {3000000, 3000000}, {500000LL * (size - 1), 500000LL * (size - 1)}},
+                  .pose = {{0, 0, -2100000000}, {1 << 30, 0, 0, 0}}}};
+        assert_true(oracle_scene(&scene));
+        footprint_step_t step = footprint_step(&scene.homography);
+        assert_int_equal(step.in_q16, 65536);
+        assert_int_equal(step.all_q16, 65536);
+
+        scene.c.camera.principal_upx[0] += 2; /* one pixel alone in the picture has no step */
+        scene.c.camera.principal_upx[1] -= 2;
+        assert_true(oracle_scene(&scene));
+        step = footprint_step(&scene.homography);
+        assert_int_equal(step.in_q16, size == 2 ? 0 : 65536);
     }
 }
 
@@ -175,7 +262,9 @@ static void blocks_follow_the_perspective(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(closed_form_is_just_above_the_exhaustive_step),
+        cmocka_unit_test(step_is_the_exhaustive_one),
+        cmocka_unit_test(step_of_turned_walls_is_the_exhaustive_one),
+        cmocka_unit_test(centres_on_the_picture_s_edge_are_in_it),
         cmocka_unit_test(a_wall_out_of_view_has_no_step),
         cmocka_unit_test(block_sides_are_the_jacobian_s_rows),
         cmocka_unit_test(blocks_follow_the_perspective),
