@@ -23,7 +23,7 @@ sim_bus_t *sim_bus_create(const sim_bus_config_t *config)
     bus->bitrate = config->bitrate;
     bus->data_bitrate = config->fd ? config->data_bitrate : config->bitrate;
     bus->fd = config->fd;
-    bus->random = config->seed;
+    bus->random = (rng_t){config->seed};
     bus->start_ns = config->start_us * 1000;
     bus->now_ns = bus->free_ns = bus->window_start_ns = bus->start_ns;
     return bus;

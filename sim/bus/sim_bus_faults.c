@@ -6,16 +6,6 @@
 
 static const int64_t longest_delay_us = 3600000000;
 
-/* SplitMix64: a fixed step of the state, then a mix of its bits. */
-static uint64_t next_random(sim_bus_t *bus)
-{
-    bus->random += 0x9E3779B97F4A7C15U;
-    uint64_t mixed = bus->random;
-    mixed = (mixed ^ (mixed >> 30)) * 0xBF58476D1CE4E5B9U;
-    mixed = (mixed ^ (mixed >> 27)) * 0x94D049BB133111EBU;
-    return mixed ^ (mixed >> 31);
-}
-
 static bool strikes(sim_bus_t *bus, sim_bus_fault_t fault)
 {
     sim_bus_fail_t *fail = &bus->fail[fault];
@@ -23,7 +13,7 @@ static bool strikes(sim_bus_t *bus, sim_bus_fault_t fault)
         fail->next--;
         return true;
     }
-    return fail->ppm > 0 && next_random(bus) % 1000000 < fail->ppm;
+    return fail->ppm > 0 && rng_next(&bus->random) % 1000000 < fail->ppm;
 }
 
 bool sim_bus_is_destroyed(sim_bus_t *bus, const hal_can_t *sender)
@@ -49,8 +39,8 @@ static hal_can_frame_t corrupted_copy(sim_bus_t *bus, const hal_can_frame_t *fra
 {
     hal_can_frame_t copy = *frame;
     const unsigned bits = frame->length * 8U;
-    const unsigned first = (unsigned)(next_random(bus) % bits);
-    const unsigned count = 1 + (unsigned)(next_random(bus) % 3);
+    const unsigned first = (unsigned)(rng_next(&bus->random) % bits);
+    const unsigned count = 1 + (unsigned)(rng_next(&bus->random) % 3);
     for (unsigned i = 0; i < count; i++) {
         const unsigned at = (first + i) % bits;
         copy.data[at / 8] = (uint8_t)(copy.data[at / 8] ^ 1U << at % 8);

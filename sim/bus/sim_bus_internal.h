@@ -4,6 +4,7 @@
 #define SIM_BUS_SIM_BUS_INTERNAL_H
 
 #include "sim/bus/sim_bus.h"
+#include "sim/rng.h"
 
 enum {
     SIM_CAN_TRANSMIT_FRAMES = 64,
@@ -59,7 +60,8 @@ struct sim_bus {
     int64_t start_ns, now_ns;
     int64_t free_ns; /**< the wire is free for a new frame from here on */
     sim_wire_t wire;
-    uint64_t sequence, random;
+    uint64_t sequence;
+    rng_t random;
     sim_bus_stats_t stats;   /**< busy_ns runs ahead to free_ns */
     int64_t window_start_ns; /**< of the window now is in */
     int64_t window_start_busy_ns, last_window_busy_ns;

@@ -5,6 +5,8 @@
 #include <assert.h>
 #include <stdlib.h>
 
+#include "sim/rng.h"
+
 /* Two held by the firmware, one ready to be taken, one being decoded. */
 enum { BUFFERS = 4, MAX_HELD = 2 };
 enum { MILLION = 1000000, NO_PICTURE = -1, MAX_CATCH_UP = 100000 };
@@ -98,14 +100,10 @@ sim_camera_counts_t sim_camera_counts(const hal_camera_t *camera)
     return camera->counts;
 }
 
-/* A number from seed, picture and purpose alone: the same whatever was asked before (finaliser of SplitMix64). */
+/* A number from seed, picture and purpose alone: the same whatever was asked before. */
 static uint64_t hash(uint32_t seed, int64_t picture, chance_t purpose)
 {
-    uint64_t z = ((uint64_t)seed << 32) + 4 * (uint64_t)picture + (uint64_t)purpose;
-    z += 0x9E3779B97F4A7C15U;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
-    return z ^ (z >> 31);
+    return rng_next(&(rng_t){((uint64_t)seed << 32) + 4 * (uint64_t)picture + (uint64_t)purpose});
 }
 
 /* Whether a fault hits this picture: because it was ordered for the next ones, or by chance. */
@@ -121,17 +119,13 @@ static bool hit(const hal_camera_t *camera, uint32_t *next, uint32_t ppm, int64_
 /* Noise over a quarter of the height, at a height that depends on the picture. */
 static void spoil(const hal_camera_t *camera, const image_t *image, int64_t picture)
 {
-    uint64_t state = hash(camera->settings.seed, picture, NOISE) | 1;
+    rng_t noise = {hash(camera->settings.seed, picture, NOISE)};
     const int32_t rows = (image->height + 3) / 4;
-    const int32_t begin = (int32_t)(state % (uint64_t)(image->height - rows + 1));
+    const int32_t begin = (int32_t)(rng_next(&noise) % (uint64_t)(image->height - rows + 1));
     for (int32_t y = begin; y < begin + rows; y++) {
         uint8_t *row = image_row(image, y);
-        for (int32_t x = 0; x < image->width * (int32_t)image->format; x++) {
-            state ^= state << 13; /* xorshift64 */
-            state ^= state >> 7;
-            state ^= state << 17;
-            row[x] = (uint8_t)(state >> 56);
-        }
+        for (int32_t x = 0; x < image->width * (int32_t)image->format; x++)
+            row[x] = (uint8_t)(rng_next(&noise) >> 56);
     }
 }
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "sim/study/study_random.h"
+#include "sim/rng.h"
 
 /* Radii in pixels of the picture; how often the leaves would cover it, laid side by side. */
 static const double least_radius = 0.5;
@@ -39,12 +39,11 @@ static void draw_leaves(const image_t *original, double finer)
     const double shape = 1.0 - pow(least / most, 1.5);
     const double mean_area = acos(-1.0) * 3.0 * least * least * (sqrt(most / least) - 1.0) / shape;
     const double count = layers * original->width * original->height / mean_area + 100.0;
-    study_random_t random = {1};
+    rng_t rng = {1};
     for (double n = 0.0; n < count; n += 1.0) {
-        const double radius = least / pow(1.0 - study_random_unit(&random) * shape, 2.0 / 3.0);
-        const double x = study_random_unit(&random) * original->width,
-                     y = study_random_unit(&random) * original->height;
-        const double gray = DARKEST + study_random_unit(&random) * (BRIGHTEST - DARKEST);
+        const double radius = least / pow(1.0 - rng_unit(&rng) * shape, 2.0 / 3.0);
+        const double x = rng_unit(&rng) * original->width, y = rng_unit(&rng) * original->height;
+        const double gray = DARKEST + rng_unit(&rng) * (BRIGHTEST - DARKEST);
         draw_leaf(original, x, y, radius, (uint8_t)gray);
     }
 }

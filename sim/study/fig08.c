@@ -61,8 +61,8 @@ static void look(void *context, int32_t index)
     view.eye = view.tracked = study_pose(angle_of(figures, angle));
     if (which >= 2) {
         /* the same draws at every angle and for every noise: curves differ by these alone */
-        study_random_t random = {(uint64_t)(SEED + (which - 2) % figures->seeds)};
-        view.tracked = rectangle_tracked(&view.eye, &noises[(which - 2) / figures->seeds], &random);
+        rng_t rng = {(uint64_t)(SEED + (which - 2) % figures->seeds)};
+        view.tracked = rectangle_tracked(&view.eye, &noises[(which - 2) / figures->seeds], &rng);
     }
     if (!rectangle_view(&figures->result[angle][which], &view))
         study_fail(figures->study, "figures 8 and 9, %d degrees: out of memory, or no rectangle in the view",

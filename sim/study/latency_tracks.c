@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "sim/study/flicker_walk.h"
-#include "sim/study/study_random.h"
+#include "sim/rng.h"
 
 enum { TIMES = 20 };
 
@@ -79,12 +79,12 @@ latency_error_t latency_late_error(const study_scene_t *scene, latency_track_t t
 
 pose_t latency_noisy_pose(const pose_t *pose, int32_t draw, double position_m, double orientation_deg)
 {
-    study_random_t random = {(uint64_t)draw + 1};
+    rng_t rng = {(uint64_t)draw + 1};
     pose_t noisy = *pose;
     double rotation_rad[3];
     for (int i = 0; i < 3; i++) {
-        noisy.eye_nm[i] += llround(position_m * study_random_normal(&random) * 1e9);
-        rotation_rad[i] = orientation_deg * M_PI / 180.0 * study_random_normal(&random);
+        noisy.eye_nm[i] += llround(position_m * rng_normal(&rng) * 1e9);
+        rotation_rad[i] = orientation_deg * M_PI / 180.0 * rng_normal(&rng);
     }
     flicker_walk_turn(&noisy, rotation_rad);
     return noisy;

@@ -21,13 +21,13 @@ typedef struct {
     warp_t *warp;
 } work_t;
 
-pose_t rectangle_tracked(const pose_t *pose, const tracking_noise_t *noise, study_random_t *random)
+pose_t rectangle_tracked(const pose_t *pose, const tracking_noise_t *noise, rng_t *rng)
 {
     pose_t tracked = *pose;
     double turn[3];
     for (int i = 0; i < 3; i++) {
-        tracked.eye_nm[i] += llround(noise->position_mm * 1e6 * study_random_normal(random));
-        turn[i] = noise->orientation_deg * study_random_normal(random) * 3.14159265358979323846 / 360.0;
+        tracked.eye_nm[i] += llround(noise->position_mm * 1e6 * rng_normal(rng));
+        turn[i] = noise->orientation_deg * rng_normal(rng) * 3.14159265358979323846 / 360.0;
     }
     /* a small turn (1, turn) about the camera's axes, of unit length within the frame path's tolerance */
     double q[4];

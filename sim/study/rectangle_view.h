@@ -4,7 +4,7 @@
 #define SIM_STUDY_RECTANGLE_VIEW_H
 
 #include "sim/study/rectangle.h"
-#include "sim/study/study_random.h"
+#include "sim/rng.h"
 #include "sim/study/study_scene.h"
 
 /** Error of the tracked pose: standard deviation along, and about, each of three axes. */
@@ -27,7 +27,7 @@ typedef struct {
 } rectangle_views_t;
 
 /** @return The pose as a tracker reports it. */
-pose_t rectangle_tracked(const pose_t *pose, const tracking_noise_t *noise, study_random_t *random);
+pose_t rectangle_tracked(const pose_t *pose, const tracking_noise_t *noise, rng_t *rng);
 
 /** Measure both. @return false when memory is out, or when no rectangle is found in the view. */
 bool rectangle_view(rectangle_views_t *views, const rectangle_view_t *view);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "sim/files/pixel.h"
-#include "sim/study/study_random.h"
+#include "sim/rng.h"
 #include "sim/study/study_scene.h"
 
 /* sim/study/study_files.S */
@@ -91,10 +91,10 @@ static void checkerboard(const image_t *out, int32_t field_px)
 
 static void noise(const image_t *out)
 {
-    study_random_t random = {NOISE_SEED};
+    rng_t rng = {NOISE_SEED};
     for (int32_t y = 0; y < out->height; y++)
         for (int32_t x = 0; x < out->width; x++)
-            image_row(out, y)[x] = (uint8_t)(study_random_next(&random) >> 56);
+            image_row(out, y)[x] = (uint8_t)(rng_next(&rng) >> 56);
 }
 
 bool study_image(study_image_t image, int32_t width, int32_t height, int32_t factor, image_t *picture,
