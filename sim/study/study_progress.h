@@ -8,7 +8,7 @@
 
 #include "sim/study/study_run.h"
 
-/** What study_progress_measure() takes on the machine on which the table of experiments was timed, seconds. */
+/** What study_standard_work() takes on the machine on which the table of experiments was timed, seconds. */
 static const double study_standard_s = 0.265;
 
 typedef struct {
