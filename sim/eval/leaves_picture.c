@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "sim/files/gray_image.h"
 #include "sim/rng.h"
 
 /* Radii in pixels of the picture; how often the leaves would cover it, laid side by side. */
@@ -48,38 +49,16 @@ static void draw_leaves(const image_t *original, double finer)
     }
 }
 
-static void take_means(const image_t *picture, const image_t *original, int32_t finer)
-{
-    const int32_t area = finer * finer;
-    for (int32_t y = 0; y < picture->height; y++)
-        for (int32_t x = 0; x < picture->width; x++) {
-            int32_t sum = 0;
-            for (int32_t n = 0; n < area; n++)
-                sum += image_row(original, y * finer + n / finer)[x * finer + n % finer];
-            image_row(picture, y)[x] = (uint8_t)((2 * sum + area) / (2 * area));
-        }
-}
-
-static image_t gray_image(int32_t width, int32_t height)
-{
-    return (image_t){.data = calloc((size_t)height, (size_t)width),
-                     .width = width,
-                     .height = height,
-                     .stride = width,
-                     .format = IMAGE_GRAY8};
-}
-
 bool leaves_picture(int32_t width, int32_t height, int32_t finer, image_t *picture, image_t *original)
 {
-    const image_t fine = gray_image(width * finer, height * finer), coarse = gray_image(width, height);
-    if (fine.data == NULL || coarse.data == NULL) {
+    image_t fine, coarse;
+    if (!gray_image(&fine, width * finer, height * finer) || !gray_image(&coarse, width, height)) {
         free(fine.data);
-        free(coarse.data);
         return false;
     }
     memset(fine.data, (DARKEST + BRIGHTEST) / 2, (size_t)fine.width * (size_t)fine.height);
     draw_leaves(&fine, finer);
-    take_means(&coarse, &fine, finer);
+    gray_image_means(&coarse, &fine, finer);
     *picture = coarse;
     *original = fine;
     return true;

@@ -8,6 +8,7 @@
 #include "sim/eval/double_view.h"
 #include "sim/eval/mesh_psnr.h"
 #include "sim/eval/pixel_view.h"
+#include "sim/files/gray_image.h"
 
 const intensity_model_t intensity_models[INTENSITY_MODELS] = {
     {"ideal", 1.0, 0.0, 1.0, 0.0},         {"dark gap", 0.85, 0.0, 1.0, 0.0},
@@ -19,29 +20,24 @@ const double intensity_exponent = 6.0, intensity_projector_m[3] = {0.0, -1.0, -6
 /* Each row's panel. */
 typedef struct {
     warp_t *warp;
-    uint8_t *memory;
     image_t panel[INTENSITY_ROWS];
 } bench_t;
 
-static bool bench_open(bench_t *bench, const wall_t *wall)
+static bool bench_open(bench_t *bench, const intensity_place_t *place)
 {
-    const int32_t width = wall->panel_width, height = wall->panel_height;
-    const size_t pixels = (size_t)width * (size_t)height;
-    bench->warp = malloc(sizeof *bench->warp);
-    bench->memory = malloc(INTENSITY_ROWS * pixels);
-    for (int32_t row = 0; bench->memory != NULL && row < INTENSITY_ROWS; row++)
-        bench->panel[row] = (image_t){.data = bench->memory + (size_t)row * pixels,
-                                      .width = width,
-                                      .height = height,
-                                      .stride = width,
-                                      .format = IMAGE_GRAY8};
-    return bench->warp != NULL && bench->memory != NULL;
+    const wall_t *wall = &place->scene->wall;
+    *bench = (bench_t){.warp = malloc(sizeof *bench->warp)};
+    bool made = bench->warp != NULL;
+    for (int32_t row = 0; made && row <= place->methods; row++)
+        made = gray_image(&bench->panel[row], wall->panel_width, wall->panel_height);
+    return made;
 }
 
 static void bench_close(bench_t *bench)
 {
+    for (int32_t row = 0; row < INTENSITY_ROWS; row++)
+        free(bench->panel[row].data);
     free(bench->warp);
-    free(bench->memory);
 }
 
 static bool fill_panels(bench_t *bench, const intensity_place_t *place, const homography_t *homography,
@@ -53,8 +49,10 @@ static bool fill_panels(bench_t *bench, const intensity_place_t *place, const ho
         return false;
     mesh_limit(&mesh, &bench->panel[place->methods]);
     mesh_free(&mesh);
-    for (int32_t m = 0; m < place->methods; m++)
-        study_warp(bench->warp, place->method[m], homography, place->picture, &bench->panel[m]);
+    for (int32_t m = 0; m < place->methods; m++) {
+        study_warp_begin(bench->warp, place->method[m]);
+        study_warp_frame(bench->warp, homography, place->picture, &bench->panel[m]);
+    }
     return true;
 }
 
@@ -93,7 +91,7 @@ bool intensity_see(intensity_seen_t *seen, const intensity_place_t *place)
     homography_t homography;
     double_homography_t inverse;
     bench_t bench;
-    bool made = bench_open(&bench, &place->scene->wall) &&
+    bool made = bench_open(&bench, place) &&
                 homography_from_pose(&homography, &place->scene->camera, &place->scene->wall, &pose);
     if (made) {
         double_homography_from_fixed(&inverse, &homography);

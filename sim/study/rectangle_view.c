@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "sim/eval/viewer_picture.h"
+#include "sim/files/gray_image.h"
 #include "warp_fixed/fixed.h"
 
 static const double share = 0.28;
@@ -135,7 +136,8 @@ static bool measure(work_t *work, rectangle_views_t *views)
     double_homography_from_fixed(&work->tracked_exact, &work->tracked);
     double_homography_from_fixed(&work->eye_exact, &eye);
     draw_rectangle(work);
-    study_warp(work->warp, warp_method_default(), &work->tracked, &work->picture, &work->panel);
+    study_warp_begin(work->warp, warp_method_default());
+    study_warp_frame(work->warp, &work->tracked, &work->picture, &work->panel);
     views->geometry = from_geometry(work);
     return from_view(work, &views->seen);
 }
@@ -143,21 +145,16 @@ static bool measure(work_t *work, rectangle_views_t *views)
 bool rectangle_view(rectangle_views_t *views, const rectangle_view_t *view)
 {
     const int32_t width = view->width, height = view->height;
-    const size_t pixels = (size_t)width * (size_t)height;
-    uint8_t *data = malloc(3 * pixels);
     work_t work = {.view = view,
                    .left = width * (1.0 - share) / 2.0,
                    .top = height * (1.0 - share) / 2.0,
                    .warp = malloc(sizeof *work.warp)};
-    bool made = false;
-    if (data != NULL && work.warp != NULL) {
-        const image_t image = {.data = data, .width = width, .height = height, .stride = width, .format = IMAGE_GRAY8};
-        work.picture = work.panel = work.seen = image;
-        work.panel.data += pixels;
-        work.seen.data += 2 * pixels;
-        made = measure(&work, views);
-    }
+    const bool made = work.warp != NULL && gray_image(&work.picture, width, height) &&
+                      gray_image(&work.panel, width, height) && gray_image(&work.seen, width, height) &&
+                      measure(&work, views);
+    free(work.seen.data);
+    free(work.panel.data);
+    free(work.picture.data);
     free(work.warp);
-    free(data);
     return made;
 }

@@ -3,6 +3,7 @@
 #include <png.h>
 #include <stdlib.h>
 
+#include "sim/files/gray_image.h"
 #include "sim/files/pixel.h"
 #include "sim/rng.h"
 #include "sim/study/study_scene.h"
@@ -17,32 +18,6 @@ const char *study_image_name(study_image_t image)
 {
     static const char *const names[STUDY_IMAGES] = {"studio", "astronaut", "coffee", "checkerboard", "noise"};
     return names[image];
-}
-
-static bool gray_image(image_t *image, int32_t width, int32_t height)
-{
-    uint8_t *data = malloc((size_t)width * (size_t)height);
-    *image = (image_t){.data = data, .width = width, .height = height, .stride = width, .format = IMAGE_GRAY8};
-    return data != NULL;
-}
-
-/* The mean of the factor x factor pixels from (x, y) on, rounded half up. */
-static uint8_t mean_at(const image_t *image, int32_t x, int32_t y, int32_t factor)
-{
-    int32_t sum = 0;
-    for (int32_t j = 0; j < factor; j++)
-        for (int32_t i = 0; i < factor; i++)
-            sum += image_row(image, y + j)[x + i];
-    return (uint8_t)((2 * sum + factor * factor) / (2 * factor * factor));
-}
-
-/* out becomes the middle of image, each pixel the mean of factor x factor. */
-static void shrink(const image_t *out, const image_t *image, int32_t factor)
-{
-    const int32_t left = (image->width - out->width * factor) / 2, top = (image->height - out->height * factor) / 2;
-    for (int32_t y = 0; y < out->height; y++)
-        for (int32_t x = 0; x < out->width; x++)
-            image_row(out, y)[x] = mean_at(image, left + x * factor, top + y * factor, factor);
 }
 
 static bool decode(image_t *luma, const uint8_t *begin, const uint8_t *end)
@@ -77,7 +52,7 @@ static bool photograph(study_image_t which, const image_t *out)
     const int32_t by_width = luma.width / out->width, by_height = luma.height / out->height;
     const int32_t factor = by_width < by_height ? by_width : by_height;
     if (factor >= 1)
-        shrink(out, &luma, factor);
+        gray_image_means(out, &luma, factor);
     free(luma.data);
     return factor >= 1;
 }
@@ -115,7 +90,7 @@ bool study_image(study_image_t image, int32_t width, int32_t height, int32_t fac
         free(fine.data);
         return false;
     }
-    shrink(&coarse, &fine, factor);
+    gray_image_means(&coarse, &fine, factor);
     *picture = coarse;
     if (original != NULL)
         *original = fine;

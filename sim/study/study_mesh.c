@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "sim/files/gray_image.h"
 #include "sim/study/study_mesh_tally.h"
 
 static bool fail(char error[FILE_ERROR_LENGTH], const study_mesh_case_t *at, const char *what)
@@ -39,14 +40,8 @@ bool study_mesh_open(study_mesh_t *mesh, const study_mesh_case_t *at, char error
     if (!homography_from_pose(&made.homography, &scene.camera, &scene.wall, &pose))
         return fail(error, at, "no homography");
     double_homography_from_fixed(&made.exact, &made.homography);
-    const int32_t width = at->sizes.panel_width, height = at->sizes.panel_height;
-    made.panel = (image_t){.data = malloc((size_t)width * (size_t)height),
-                           .width = width,
-                           .height = height,
-                           .stride = width,
-                           .format = IMAGE_GRAY8};
     made.warp = malloc(sizeof *made.warp);
-    const bool memory = made.panel.data != NULL && made.warp != NULL;
+    const bool memory = made.warp != NULL && gray_image(&made.panel, at->sizes.panel_width, at->sizes.panel_height);
     if (!memory || !sample_truths(&made, at, error)) {
         study_mesh_close(&made);
         return memory ? false : fail(error, at, "out of memory");
@@ -67,7 +62,8 @@ void study_mesh_close(study_mesh_t *mesh)
 
 void study_mesh_warp(study_mesh_t *mesh, int method)
 {
-    study_warp(mesh->warp, &warp_methods[method], &mesh->homography, &mesh->picture, &mesh->panel);
+    study_warp_begin(mesh->warp, &warp_methods[method]);
+    study_warp_frame(mesh->warp, &mesh->homography, &mesh->picture, &mesh->panel);
 }
 
 static double psnr_db(const study_mesh_t *mesh, int truth)

@@ -69,11 +69,14 @@ pose_t study_pose(double angle_deg)
     return study_pose_turned((const double[3]){0.0, angle_deg, 0.0});
 }
 
-void study_warp(warp_t *warp, const warp_method_t *method, const homography_t *homography, const image_t *picture,
-                const image_t *panel)
+void study_warp_begin(warp_t *warp, const warp_method_t *method)
 {
     static const uint8_t black[3] = {0, 0, 0};
     warp_init(warp, *method, false, black);
+}
+
+void study_warp_frame(warp_t *warp, const homography_t *homography, const image_t *picture, const image_t *panel)
+{
     const bool made = warp_frame(warp, &warp_kernels_scalar, NULL, homography, panel, picture);
     assert(made);
     (void)made;

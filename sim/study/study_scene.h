@@ -60,13 +60,10 @@ const char *study_image_name(study_image_t image);
 bool study_image(study_image_t image, int32_t width, int32_t height, int32_t factor, image_t *picture,
                  image_t *original);
 
-/**
- * Warp a picture with the product's own code.
- *
- * @param warp   The caller's, one per thread; malloc(sizeof *warp).
- * @param panel  GRAY8, of the panel's size.
- */
-void study_warp(warp_t *warp, const warp_method_t *method, const homography_t *homography, const image_t *picture,
-                const image_t *panel);
+/** Prepare the product's own warp, one per thread, malloc(sizeof *warp): k over pixels in the picture, border black. */
+void study_warp_begin(warp_t *warp, const warp_method_t *method);
+
+/** Warp a picture. @param panel  GRAY8, of the panel's size. */
+void study_warp_frame(warp_t *warp, const homography_t *homography, const image_t *picture, const image_t *panel);
 
 #endif

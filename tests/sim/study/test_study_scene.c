@@ -125,7 +125,8 @@ static void straight_on_the_warp_copies(void **state)
     assert_true(study_image(STUDY_STUDIO, 480, 270, 1, &panel, NULL));
     for (int m = 0; m < WARP_METHODS; m++) {
         memset(panel.data, 77, 480 * 270);
-        study_warp(warp, &warp_methods[m], &homography, &picture, &panel);
+        study_warp_begin(warp, &warp_methods[m]);
+        study_warp_frame(warp, &homography, &picture, &panel);
         assert_memory_equal(panel.data, picture.data, 480 * 270);
     }
     free(panel.data);
