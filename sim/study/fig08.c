@@ -16,7 +16,7 @@ enum {
     SEED = 8
 };
 
-static const tracking_noise_t noises[NOISES] = {{1.0, 0.1}, {5.0, 0.5}, {25.0, 2.5}};
+static const study_noise_t noises[NOISES] = {{1.0, 0.1}, {5.0, 0.5}, {25.0, 2.5}};
 
 typedef struct {
     study_t *study;
@@ -62,7 +62,7 @@ static void look(void *context, int32_t index)
     if (which >= 2) {
         /* the same draws at every angle and for every noise: curves differ by these alone */
         rng_t rng = {(uint64_t)(SEED + (which - 2) % figures->seeds)};
-        view.tracked = rectangle_tracked(&view.eye, &noises[(which - 2) / figures->seeds], &rng);
+        view.tracked = study_pose_tracked(&view.eye, &noises[(which - 2) / figures->seeds], &rng);
     }
     if (!rectangle_view(&figures->result[angle][which], &view))
         study_fail(figures->study, "figures 8 and 9, %d degrees: out of memory, or no rectangle in the view",

@@ -9,7 +9,6 @@
 
 enum { SIZES = 3, ANGLES = 2, PHOTOGRAPHS = 3, PLOTS = SIZES * ANGLES, NAME_LENGTH = 40 };
 
-static const double speed_m_s = 1.4, bob_m = 0.015;
 static const double angle_deg[ANGLES] = {20.0, 50.0};
 
 /* Looks: three or more in each projector pixel, along each side. */
@@ -83,12 +82,13 @@ static void measure(void *context, int32_t index)
     experiment_t *experiment = context;
     const int32_t m = index % experiment->methods, c = index / experiment->methods;
     const int32_t plot = c / experiment->photographs, size = plot / ANGLES;
-    const flicker_watch_t watch = {.scene = &experiment->scene[size],
-                                   .picture = &experiment->picture[size][c % experiment->photographs],
-                                   .method = experiment->method[m],
-                                   .walk = {study_pose(angle_deg[plot % ANGLES]), speed_m_s, bob_m, 0.0},
-                                   .frames = experiment->frames,
-                                   .looks = setting[size].looks};
+    const flicker_watch_t watch = {
+        .scene = &experiment->scene[size],
+        .picture = &experiment->picture[size][c % experiment->photographs],
+        .method = experiment->method[m],
+        .walk = {study_pose(angle_deg[plot % ANGLES]), study_walk_speed_m_s, study_walk_bob_m, 0.0},
+        .frames = experiment->frames,
+        .looks = setting[size].looks};
     flicker_sums_t sums;
     if (!flicker_watch(&sums, &watch)) {
         study_fail(experiment->study, "out of memory");
@@ -169,7 +169,7 @@ static void begin_section(const experiment_t *experiment)
              "480x270, smaller 240x135 and 960x540, larger 480x270 and 240x135; the eye takes 6x6, 12x12, 4x4 looks "
              "in each picture pixel. Pictures: studio%s. Pixels within %.0f of the edge of the wall or the picture are "
              "left out.",
-             speed_m_s, bob_m * 1e3, flicker_walk_bob_hz, experiment->frames, flicker_watch_hz,
+             study_walk_speed_m_s, study_walk_bob_m * 1e3, study_walk_bob_hz, experiment->frames, flicker_watch_hz,
              study_quick(experiment->study) ? ", halved here" : "",
              experiment->photographs > 1 ? ", astronaut, coffee; a plot shows their mean" : "",
              flicker_watch_margin_px);

@@ -81,7 +81,7 @@ bool flicker_watch(flicker_sums_t *sums, const flicker_watch_t *watch)
         study_warp_begin(bench.warp, watch->method);
     }
     for (int32_t frame = 0; opened && frame < watch->frames; frame++) {
-        const pose_t pose = flicker_walk_pose(&watch->walk, (frame - watch->frames / 2) / flicker_watch_hz);
+        const pose_t pose = study_walk_pose(&watch->walk, (frame - watch->frames / 2) / flicker_watch_hz);
         see(&bench, watch, &pose);
         flicker_add_sharpness(sums, &bench.now.picture, watch->picture, bench.now.covered.data);
         if (frame > 0)

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 
 #include "sim/study/flicker_measure.h"
-#include "sim/study/flicker_walk.h"
+#include "sim/study/study_walk.h"
 #include "sim/study/study_scene.h"
 
 /** Frames per second of the projector, and what is left out around the edge of what is covered, picture pixels. */
@@ -16,9 +16,9 @@ typedef struct {
     const study_scene_t *scene;
     const image_t *picture; /**< the same in every frame */
     const warp_method_t *method;
-    flicker_walk_t walk; /**< its start is reached in the middle of the frames */
-    int32_t frames;      /**< 1 or more */
-    int32_t looks;       /**< of the eye along each side of a picture pixel, 1 to VIEWER_MAX_SAMPLES */
+    study_walk_t walk; /**< its start is reached in the middle of the frames */
+    int32_t frames;    /**< 1 or more */
+    int32_t looks;     /**< of the eye along each side of a picture pixel, 1 to VIEWER_MAX_SAMPLES */
 } flicker_watch_t;
 
 /**

@@ -4,14 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "sim/study/flicker_walk.h"
+#include "sim/study/study_walk.h"
 #include "sim/study/latency_tracks.h"
 #include "sim/study/latency_view.h"
 #include "sim/study/study_experiments.h"
 
 enum { STEPS = 11, NOISES = 2, TEXT_LENGTH = 1000 };
 
-static const double worst_latency_s = 0.1, worst_noise_m = 0.02, worst_noise_deg = 2.0;
+static const double worst_latency_s = 0.1, worst_noise_mm = 20.0, worst_noise_deg = 2.0;
 
 /* Geometry is told in pixels of a full HD picture. */
 static const study_sizes_t full_hd = {1920, 1080, 1920, 1080};
@@ -36,6 +36,16 @@ static double part_of(int32_t step, double worst)
     return worst * step / (STEPS - 1);
 }
 
+static study_noise_t noise_of_position(int32_t step)
+{
+    return (study_noise_t){.position_mm = part_of(step, worst_noise_mm)};
+}
+
+static study_noise_t noise_of_orientation(int32_t step)
+{
+    return (study_noise_t){.orientation_deg = part_of(step, worst_noise_deg)};
+}
+
 /* What the eye sees with one step of each kind of error: late, walking and turning; moved; turned. */
 static bool see(experiment_t *experiment, int32_t step)
 {
@@ -45,10 +55,10 @@ static bool see(experiment_t *experiment, int32_t step)
         const double time_s = latency_time_s(n, experiment->view_times);
         const pose_t walking = latency_pose(LATENCY_WALKING, time_s), turning = latency_pose(LATENCY_TURNING, time_s);
         const double latency_s = part_of(step, worst_latency_s);
+        const study_noise_t move = noise_of_position(step), turn = noise_of_orientation(step);
         const pose_t corrected[4] = {latency_pose(LATENCY_WALKING, time_s - latency_s),
                                      latency_pose(LATENCY_TURNING, time_s - latency_s),
-                                     latency_noisy_pose(&walking, n, part_of(step, worst_noise_m), 0.0),
-                                     latency_noisy_pose(&walking, n, 0.0, part_of(step, worst_noise_deg))};
+                                     latency_tracked(&walking, &move, n), latency_tracked(&walking, &turn, n)};
         for (int kind = 0; made && kind < 4; kind++)
             made = latency_view_add(&sum[kind], &experiment->view_scene, &experiment->picture, &corrected[kind],
                                     kind == 1 ? &turning : &walking);
@@ -68,11 +78,10 @@ static void measure(void *context, int32_t step)
         for (int c = 0; c < CONTENTS; c++)
             experiment->late[t][c][step] =
                 latency_late_error(scene, (latency_track_t)t, part_of(step, worst_latency_s), content_m[c]);
+    const study_noise_t move = noise_of_position(step), turn = noise_of_orientation(step);
     for (int n = 0; n < NOISES; n++) {
-        experiment->moved[n][step] =
-            latency_noise_error(scene, n == 1, part_of(step, worst_noise_m), 0.0, content_m[BEHIND]);
-        experiment->turned[n][step] =
-            latency_noise_error(scene, n == 1, 0.0, part_of(step, worst_noise_deg), content_m[BEHIND]);
+        experiment->moved[n][step] = latency_noise_error(scene, n == 1, &move, content_m[BEHIND]);
+        experiment->turned[n][step] = latency_noise_error(scene, n == 1, &turn, content_m[BEHIND]);
     }
     if (!see(experiment, step))
         study_fail(experiment->study, "out of memory");
@@ -121,7 +130,7 @@ static void write_curves(const experiment_t *experiment)
                           "position_mm,wall px,wall and picture px,wall dB,"
                           "orientation_deg,wall px,wall and picture px,wall dB");
     for (int32_t step = 0; csv != NULL && step < STEPS; step++)
-        fprintf(csv, "%g,%.4f,%.4f,%.3f,%g,%.4f,%.4f,%.3f\n", part_of(step, worst_noise_m) * 1e3,
+        fprintf(csv, "%g,%.4f,%.4f,%.3f,%g,%.4f,%.4f,%.3f\n", part_of(step, worst_noise_mm),
                 latency_mean_px(&experiment->moved[0][step]), latency_mean_px(&experiment->moved[1][step]),
                 experiment->moved_db[step], part_of(step, worst_noise_deg),
                 latency_mean_px(&experiment->turned[0][step]), latency_mean_px(&experiment->turned[1][step]),
@@ -213,9 +222,9 @@ static void begin_section(const experiment_t *experiment)
         "the swing, in pixels of a 1920x1080 picture, of which one is about %.3f degrees, for content %.1f m "
         "behind the wall. PSNR: mean+cubic, studio, %dx%d, where wall and picture are seen. Noise: normal, seeds "
         "1 to 20, deviation along each axis.",
-        latency_speed_m_s, latency_bob_m * 1e3, flicker_walk_bob_hz, latency_yaw_deg, flicker_walk_yaw_hz,
-        1.0 / flicker_walk_yaw_hz, 180.0 / M_PI * 1e6 / (double)experiment->scene.camera.focal_upx[0],
-        content_m[BEHIND], experiment->picture.width, experiment->picture.height);
+        study_walk_speed_m_s, study_walk_bob_m * 1e3, study_walk_bob_hz, latency_yaw_deg, study_walk_yaw_hz,
+        1.0 / study_walk_yaw_hz, 180.0 / M_PI * 1e6 / (double)experiment->scene.camera.focal_upx[0], content_m[BEHIND],
+        experiment->picture.width, experiment->picture.height);
     study_section(experiment->study, "A moving viewer: late and noisy poses", settings);
     study_text(experiment->study,
                "Three poses meet in a frame: the one that the engine drew the picture for, the one that the wall is "

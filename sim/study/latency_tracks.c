@@ -4,12 +4,11 @@
 
 #include <math.h>
 
-#include "sim/study/flicker_walk.h"
-#include "sim/rng.h"
+#include "sim/study/study_walk.h"
 
 enum { TIMES = 20 };
 
-const double latency_speed_m_s = 1.4, latency_bob_m = 0.015, latency_yaw_deg = 45.0;
+const double latency_yaw_deg = 45.0;
 
 typedef struct {
     const char *name;
@@ -32,15 +31,15 @@ const char *latency_track_name(latency_track_t track)
 
 double latency_time_s(int32_t n, int32_t count)
 {
-    return ((n + 0.5) / count - 0.5) / flicker_walk_yaw_hz;
+    return ((n + 0.5) / count - 0.5) / study_walk_yaw_hz;
 }
 
 pose_t latency_pose(latency_track_t track, double time_s)
 {
     const motion_t *of = &motion[track];
-    const flicker_walk_t walk = {study_pose(0.0), of->walks ? latency_speed_m_s : 0.0, of->walks ? latency_bob_m : 0.0,
-                                 of->turns ? latency_yaw_deg : 0.0};
-    return flicker_walk_pose(&walk, time_s);
+    const study_walk_t walk = {study_pose(0.0), of->walks ? study_walk_speed_m_s : 0.0,
+                               of->walks ? study_walk_bob_m : 0.0, of->turns ? latency_yaw_deg : 0.0};
+    return study_walk_pose(&walk, time_s);
 }
 
 static latency_poses_t late_poses(latency_track_t track, double time_s, double latency_s)
@@ -77,26 +76,19 @@ latency_error_t latency_late_error(const study_scene_t *scene, latency_track_t t
     return error;
 }
 
-pose_t latency_noisy_pose(const pose_t *pose, int32_t draw, double position_m, double orientation_deg)
+pose_t latency_tracked(const pose_t *pose, const study_noise_t *noise, int32_t draw)
 {
     rng_t rng = {(uint64_t)draw + 1};
-    pose_t noisy = *pose;
-    double rotation_rad[3];
-    for (int i = 0; i < 3; i++) {
-        noisy.eye_nm[i] += llround(position_m * rng_normal(&rng) * 1e9);
-        rotation_rad[i] = orientation_deg * M_PI / 180.0 * rng_normal(&rng);
-    }
-    flicker_walk_turn(&noisy, rotation_rad);
-    return noisy;
+    return study_pose_tracked(pose, noise, &rng);
 }
 
-latency_error_t latency_noise_error(const study_scene_t *scene, bool picture_too, double position_m,
-                                    double orientation_deg, double content_m)
+latency_error_t latency_noise_error(const study_scene_t *scene, bool picture_too, const study_noise_t *noise,
+                                    double content_m)
 {
     latency_error_t error = {0};
     for (int32_t n = 0; n < TIMES; n++) {
         const pose_t eye = latency_pose(LATENCY_WALKING, latency_time_s(n, TIMES));
-        const pose_t seen = latency_noisy_pose(&eye, n, position_m, orientation_deg);
+        const pose_t seen = latency_tracked(&eye, noise, n);
         const latency_poses_t poses = {picture_too ? seen : eye, seen, eye, content_m};
         latency_error_add(&error, scene, &poses);
     }

@@ -18,7 +18,7 @@ typedef enum {
     LATENCY_TRACKS
 } latency_track_t;
 
-extern const double latency_speed_m_s, latency_bob_m, latency_yaw_deg;
+extern const double latency_yaw_deg;
 
 /** @return "walking: wall late", ... */
 const char *latency_track_name(latency_track_t track);
@@ -34,15 +34,11 @@ pose_t latency_pose(latency_track_t track, double time_s);
 latency_error_t latency_late_error(const study_scene_t *scene, latency_track_t track, double latency_s,
                                    double content_m);
 
-/**
- * A pose with the tracker's noise: normal, along each axis, with these deviations.
- *
- * @param draw  Its seed: the same draw is the same noise, scaled.
- */
-pose_t latency_noisy_pose(const pose_t *pose, int32_t draw, double position_m, double orientation_deg);
+/** @return The pose with the tracker's noise. @param draw  Its seed: the same draw is the same error, scaled. */
+pose_t latency_tracked(const pose_t *pose, const study_noise_t *noise, int32_t draw);
 
 /** Noise on the wall's pose alone, or on one pose that the picture is drawn for too; the viewer walks. */
-latency_error_t latency_noise_error(const study_scene_t *scene, bool picture_too, double position_m,
-                                    double orientation_deg, double content_m);
+latency_error_t latency_noise_error(const study_scene_t *scene, bool picture_too, const study_noise_t *noise,
+                                    double content_m);
 
 #endif

@@ -10,7 +10,6 @@
 #include "warp_fixed/fixed.h"
 
 static const double share = 0.28;
-static const double one_q30 = 1073741824.0;
 
 /* Memory and maps of one view. */
 typedef struct {
@@ -21,29 +20,6 @@ typedef struct {
     image_t picture, panel, seen;
     warp_t *warp;
 } work_t;
-
-pose_t rectangle_tracked(const pose_t *pose, const tracking_noise_t *noise, rng_t *rng)
-{
-    pose_t tracked = *pose;
-    double turn[3];
-    for (int i = 0; i < 3; i++) {
-        tracked.eye_nm[i] += llround(noise->position_mm * 1e6 * rng_normal(rng));
-        turn[i] = noise->orientation_deg * rng_normal(rng) * 3.14159265358979323846 / 360.0;
-    }
-    /* a small turn (1, turn) about the camera's axes, of unit length within the frame path's tolerance */
-    double q[4];
-    for (int i = 0; i < 4; i++)
-        q[i] = pose->quaternion_q30[i];
-    const double turned[4] = {q[0] - q[1] * turn[0] - q[2] * turn[1] - q[3] * turn[2],
-                              q[1] + q[0] * turn[0] + q[2] * turn[2] - q[3] * turn[1],
-                              q[2] + q[0] * turn[1] + q[3] * turn[0] - q[1] * turn[2],
-                              q[3] + q[0] * turn[2] + q[1] * turn[1] - q[2] * turn[0]};
-    const double length =
-        sqrt(turned[0] * turned[0] + turned[1] * turned[1] + turned[2] * turned[2] + turned[3] * turned[3]);
-    for (int i = 0; i < 4; i++)
-        tracked.quaternion_q30[i] = (int32_t)lround(turned[i] / length * one_q30);
-    return tracked;
-}
 
 static rectangle_point_t map(double rows[3][3], rectangle_point_t point)
 {

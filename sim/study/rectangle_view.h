@@ -4,13 +4,7 @@
 #define SIM_STUDY_RECTANGLE_VIEW_H
 
 #include "sim/study/rectangle.h"
-#include "sim/rng.h"
 #include "sim/study/study_scene.h"
-
-/** Error of the tracked pose: standard deviation along, and about, each of three axes. */
-typedef struct {
-    double position_mm, orientation_deg;
-} tracking_noise_t;
 
 /** What is looked at. The rectangle is 28 % of the picture's width and height, in its middle; its edges may be gray. */
 typedef struct {
@@ -25,9 +19,6 @@ typedef struct {
     rectangle_shape_t geometry; /**< from the corners' way through the fixed-point grid and the eye's homography */
     rectangle_shape_t seen;     /**< from the corners found in the rendered view */
 } rectangle_views_t;
-
-/** @return The pose as a tracker reports it. */
-pose_t rectangle_tracked(const pose_t *pose, const tracking_noise_t *noise, rng_t *rng);
 
 /** Measure both. @return false when memory is out, or when no rectangle is found in the view. */
 bool rectangle_view(rectangle_views_t *views, const rectangle_view_t *view);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The study's room: one wall, a viewer who looks at its centre, and the pictures it shows.
+// The study's room: one wall, its viewer's camera, the pictures it shows, and the product's own warp.
 #ifndef SIM_STUDY_STUDY_SCENE_H
 #define SIM_STUDY_STUDY_SCENE_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "sim/study/study_pose.h"
 #include "warp_fixed/homography_from_pose.h"
 #include "warp_fixed/image.h"
 #include "warp_fixed/method.h"
@@ -25,15 +26,6 @@ typedef struct {
 } study_scene_t;
 
 void study_scene(study_scene_t *scene, const study_sizes_t *sizes);
-
-/** The pose 2.5 m from the wall's centre and looking at it, turned about the wall's vertical axis, degrees. */
-pose_t study_pose(double angle_deg);
-
-/**
- * The same, turned about more axes of the wall through its centre: about x (the wall's horizontal) first, then y, then
- * z. study_pose(a) is study_pose_turned({0, a, 0}).
- */
-pose_t study_pose_turned(const double angle_deg[3]);
 
 /** The pictures of the study. */
 typedef enum {
