@@ -54,3 +54,14 @@ void double_homography_from_fixed(double_homography_t *out, const homography_t *
         }
     }
 }
+
+bool double_homography_panel_point(const double_homography_t *homography, const double xy_px[2], double uv_px[2])
+{
+    const double(*row)[3] = homography->panel_from_picture;
+    const double c = row[2][0] * xy_px[0] + row[2][1] * xy_px[1] + row[2][2];
+    if (!(c > 0.0))
+        return false;
+    for (int r = 0; r < 2; r++)
+        uv_px[r] = (row[r][0] * xy_px[0] + row[r][1] * xy_px[1] + row[r][2]) / c;
+    return true;
+}

@@ -3,6 +3,7 @@
 #ifndef SIM_EVAL_DOUBLE_HOMOGRAPHY_H
 #define SIM_EVAL_DOUBLE_HOMOGRAPHY_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "warp_fixed/homography_from_pose.h"
@@ -31,6 +32,9 @@ typedef struct {
  * An eye in the wall's plane sees no point of it: all numbers are then 0, so that c > 0 never holds.
  */
 void double_homography_from_fixed(double_homography_t *out, const homography_t *homography);
+
+/** Which panel point is seen at a picture point. @return false, and nothing written, unless it is before the viewer. */
+bool double_homography_panel_point(const double_homography_t *homography, const double xy_px[2], double uv_px[2]);
 
 /** @return The number, rounded to double. */
 double double_from_real(real_t real);

@@ -4,10 +4,7 @@
 
 #include <math.h>
 
-static double double_from_real(real_t real)
-{
-    return ldexp((double)real.mantissa, real.exponent);
-}
+#include "sim/eval/double_homography.h"
 
 static void rotation_from_quaternion(double r[3][3], const int32_t quaternion_q30[4])
 {

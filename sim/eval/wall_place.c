@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "sim/eval/double_homography.h"
+#include "sim/eval/double_view.h"
 
 /* A view closer than this to straight up or down, as the length of up's part across it, has no up. */
 static const double least_up = 0.01;
@@ -32,26 +32,22 @@ static void direction(double out[3], const double from[3], const double to[3])
         out[a] /= length;
 }
 
-static void point_of(double out_mm[3], const wall_t *wall, double u, double v)
+static void point_of(double out_mm[3], const double_wall_t *wall, double u, double v)
 {
-    const double uv[3] = {u, v, 1.0};
-    double numbers[4];
-    for (int r = 0; r < 4; r++) {
-        const real_t *form = r < 3 ? wall->point[r] : wall->weight;
-        const double row[3] = {double_from_real(form[0]), double_from_real(form[1]), double_from_real(form[2])};
-        numbers[r] = dot(row, uv);
-    }
+    double_wall_point(wall, (const double[2]){u, v}, out_mm);
     for (int a = 0; a < 3; a++)
-        out_mm[a] = (wall->origin_um[a] + numbers[a] / numbers[3]) / 1000.0;
+        out_mm[a] *= 1000.0;
 }
 
 void wall_place(wall_place_t *place, const wall_t *wall)
 {
     const double width = wall->panel_width, height = wall->panel_height;
+    double_wall_t exact;
+    double_wall(&exact, wall);
     const double uv[4][2] = {{0, 0}, {width, 0}, {width, height}, {0, height}};
     for (int c = 0; c < 4; c++)
-        point_of(place->corner_mm[c], wall, uv[c][0], uv[c][1]);
-    point_of(place->centre_mm, wall, width / 2, height / 2);
+        point_of(place->corner_mm[c], &exact, uv[c][0], uv[c][1]);
+    point_of(place->centre_mm, &exact, width / 2, height / 2);
     double top_edge[3], bottom_edge[3], right[3], across[3];
     for (int a = 0; a < 3; a++) {
         top_edge[a] = (place->corner_mm[0][a] + place->corner_mm[1][a]) / 2;

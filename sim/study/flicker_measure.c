@@ -7,10 +7,9 @@
 
 static bool on_wall(const double_homography_t *h, double x, double y)
 {
-    double p[3];
-    for (int r = 0; r < 3; r++)
-        p[r] = h->panel_from_picture[r][0] * x + h->panel_from_picture[r][1] * y + h->panel_from_picture[r][2];
-    return p[2] > 0.0 && p[0] >= 0.0 && p[1] >= 0.0 && p[0] <= p[2] * h->panel_width && p[1] <= p[2] * h->panel_height;
+    double uv[2];
+    return double_homography_panel_point(h, (const double[2]){x, y}, uv) && uv[0] >= 0.0 && uv[1] >= 0.0 &&
+           uv[0] <= h->panel_width && uv[1] <= h->panel_height;
 }
 
 /* The lit rectangle is convex in the picture: a square whose corners it covers is covered. */

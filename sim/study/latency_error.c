@@ -23,15 +23,11 @@ static double dot(const double a[3], const double b[3])
 /* The wall point that the eye sees at a picture point. */
 static bool wall_seen_at(const trace_t *trace, const double xy[2], double point_m[3])
 {
-    const double(*h)[3] = trace->seen.panel_from_picture;
-    const double w = h[2][0] * xy[0] + h[2][1] * xy[1] + h[2][2];
-    if (!(w > 0.0))
+    double uv[2];
+    if (!double_homography_panel_point(&trace->seen, xy, uv) || !(uv[0] >= 0.0 && uv[1] >= 0.0) ||
+        uv[0] > trace->seen.panel_width || uv[1] > trace->seen.panel_height)
         return false;
-    const double u = (h[0][0] * xy[0] + h[0][1] * xy[1] + h[0][2]) / w;
-    const double v = (h[1][0] * xy[0] + h[1][1] * xy[1] + h[1][2]) / w;
-    if (!(u >= 0.0 && v >= 0.0 && u <= trace->seen.panel_width && v <= trace->seen.panel_height))
-        return false;
-    double_wall_point(&trace->wall, (const double[2]){u, v}, point_m);
+    double_wall_point(&trace->wall, uv, point_m);
     return true;
 }
 
