@@ -6,6 +6,7 @@
 #include "sim/study/flicker_labels.h"
 #include "sim/study/flicker_watch.h"
 #include "sim/study/study_experiments.h"
+#include "sim/study/study_methods.h"
 
 enum { SIZES = 3, ANGLES = 2, PHOTOGRAPHS = 3, PLOTS = SIZES * ANGLES, NAME_LENGTH = 40 };
 
@@ -35,7 +36,7 @@ typedef struct {
     flicker_case_t mean[PLOTS];               /* over the photographs */
 } experiment_t;
 
-/* "auto" is one of the others at each pose. All sizes are halved with --quick. */
+/* All sizes are halved with --quick. */
 static bool prepare(experiment_t *experiment)
 {
     const bool quick = study_quick(experiment->study);
@@ -43,7 +44,7 @@ static bool prepare(experiment_t *experiment)
     experiment->frames = quick ? 6 : 16;
     experiment->photographs = quick ? 1 : PHOTOGRAPHS;
     for (int32_t m = 0; m < WARP_METHODS; m++)
-        if (warp_methods[m].resampler != WARP_AUTO)
+        if (study_measures(m))
             experiment->method[experiment->methods++] = &warp_methods[m];
     for (int32_t size = 0; size < SIZES; size++) {
         const study_sizes_t *full = &setting[size].size;

@@ -9,7 +9,8 @@ const double flicker_least_sharper = 0.002, flicker_least_steadier = 0.01;
 
 bool flicker_in_family(const char *name)
 {
-    return strcmp(name, "area") == 0 || strncmp(name, "mean+", 5) == 0;
+    const warp_method_t *method = warp_method_from_name(name);
+    return method != NULL && warp_averages(method->resampler);
 }
 
 bool flicker_beats(const flicker_point_t *a, const flicker_point_t *b)

@@ -7,7 +7,7 @@
 #include "sim/study/footprints_claims.h"
 #include "sim/study/study_experiments.h"
 #include "sim/study/study_mesh_curves.h"
-#include "sim/study/study_mesh_tally.h"
+#include "sim/study/study_methods.h"
 
 enum { NAME_LENGTH = 64, CAPTION_LENGTH = 128, SETTINGS_LENGTH = 512, COLUMNS_BEFORE = 2 };
 
@@ -31,9 +31,8 @@ static void measure(void *context, int32_t index)
     study_mesh_t mesh;
     if (!study_mesh_open(&mesh, &one->at, one->error))
         return;
-    const study_methods_t measured = study_methods_all();
     for (int m = 0; m < WARP_METHODS; m++)
-        if ((measured >> m & 1) != 0) {
+        if (study_measures(m)) {
             study_mesh_warp(&mesh, m);
             footprints_bins(one->bin[m], &mesh.mesh[one->truth], &mesh.exact, &mesh.panel);
         }

@@ -118,9 +118,8 @@ static void show_table(study_t *study, const study_mesh_sweep_t *sweep, study_tr
     FILE *csv = study_csv_begin(study, name, "method,eq mean,eq worst,low mean,low worst,gt mean,gt worst");
     if (csv == NULL)
         return;
-    const study_methods_t measured = study_methods_all();
     for (int m = 0; m < WARP_METHODS; m++) {
-        if ((measured >> m & 1) == 0)
+        if (!study_measures(m))
             continue;
         fputs(warp_methods[m].name, csv);
         for (int r = 0; r < ROOMS; r++) {

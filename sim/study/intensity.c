@@ -7,6 +7,7 @@
 #include "sim/study/intensity_order.h"
 #include "sim/study/intensity_see.h"
 #include "sim/study/study_experiments.h"
+#include "sim/study/study_methods.h"
 
 enum { MAX_ANGLES = 5, PHOTOGRAPHS = 3, TEXT_LENGTH = 900 };
 
@@ -33,7 +34,7 @@ static bool prepare(experiment_t *experiment)
     experiment->angles = quick ? 3 : MAX_ANGLES;
     experiment->photographs = quick ? 1 : PHOTOGRAPHS;
     for (int32_t m = 0; m < WARP_METHODS; m++) {
-        if (warp_methods[m].resampler == WARP_AUTO)
+        if (!study_measures(m))
             continue;
         if (&warp_methods[m] == warp_method_default())
             experiment->default_method = experiment->methods;

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "sim/files/gray_image.h"
-#include "sim/study/study_mesh_tally.h"
+#include "sim/study/study_methods.h"
 
 static bool fail(char error[FILE_ERROR_LENGTH], const study_mesh_case_t *at, const char *what)
 {
@@ -87,13 +87,11 @@ void study_mesh_measure(study_mesh_run_t *run)
             mesh_limit(&mesh.mesh[truth], &mesh.panel);
         found->limit_db[truth] = psnr_db(&mesh, truth);
     }
-    const study_methods_t measured = study_methods_all();
     for (int m = 0; m < WARP_METHODS; m++) {
-        const bool is_measured = (measured >> m & 1) != 0;
-        if (is_measured)
+        if (study_measures(m))
             study_mesh_warp(&mesh, m);
         for (int truth = 0; truth < STUDY_TRUTHS; truth++)
-            found->psnr_db[truth][m] = is_measured ? psnr_db(&mesh, truth) : (double)NAN;
+            found->psnr_db[truth][m] = study_measures(m) ? psnr_db(&mesh, truth) : (double)NAN;
     }
     study_mesh_close(&mesh);
 }

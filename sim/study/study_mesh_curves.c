@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "sim/study/study_mesh_tally.h"
+#include "sim/study/study_methods.h"
 
 enum { NAME_LENGTH = 64, HEADER_LENGTH = 1024, MAX_LINES = 8, EXTRA_COLOUR = 6, LS_COLOUR = 7 };
 
@@ -12,18 +12,16 @@ FILE *study_curves_begin(study_t *study, const char *name, const char *first)
 {
     char header[HEADER_LENGTH];
     int used = snprintf(header, sizeof header, "%s", first);
-    const study_methods_t measured = study_methods_all();
     for (int m = 0; m < WARP_METHODS && used < HEADER_LENGTH; m++)
-        if ((measured >> m & 1) != 0)
+        if (study_measures(m))
             used += snprintf(header + used, sizeof header - (size_t)used, ",%s", warp_methods[m].name);
     return study_csv_begin(study, name, header);
 }
 
 void study_curves_print(FILE *csv, const double value[WARP_METHODS])
 {
-    const study_methods_t measured = study_methods_all();
     for (int m = 0; m < WARP_METHODS; m++)
-        if ((measured >> m & 1) != 0)
+        if (study_measures(m))
             fprintf(csv, ",%.4f", value[m]);
     fputc('\n', csv);
 }
@@ -31,12 +29,10 @@ void study_curves_print(FILE *csv, const double value[WARP_METHODS])
 /* The column of a method, 0 when the build has none of that name. */
 static int column_of(const char *name, int before)
 {
-    const study_methods_t measured = study_methods_all();
     int column = before;
     for (int m = 0; m < WARP_METHODS; m++) {
-        const bool is_measured = (measured >> m & 1) != 0;
-        column += is_measured;
-        if (is_measured && strcmp(warp_methods[m].name, name) == 0)
+        column += study_measures(m);
+        if (study_measures(m) && strcmp(warp_methods[m].name, name) == 0)
             return column;
     }
     return 0;

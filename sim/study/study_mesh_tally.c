@@ -1,37 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets of methods, and how often and by how much one set beats another: what claims are judged by.
+// How often and by how much one set of methods beats another: what claims are judged by.
 #include "sim/study/study_mesh_tally.h"
 
-#include <fnmatch.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { SENTENCE_LENGTH = 320, MAX_SENTENCES = 8 };
-
-study_methods_t study_methods(const char *pattern)
-{
-    study_methods_t set = 0;
-    for (int m = 0; m < WARP_METHODS; m++)
-        if (strcmp(warp_methods[m].name, "auto") != 0 && fnmatch(pattern, warp_methods[m].name, 0) == 0)
-            set |= (study_methods_t)1 << m;
-    return set;
-}
-
-study_methods_t study_methods_all(void)
-{
-    return study_methods("*");
-}
-
-study_methods_t study_methods_paper(void)
-{
-    return study_methods_all() & ~(study_methods("area") | study_methods("mean+*"));
-}
-
-study_methods_t study_methods_filtered(void)
-{
-    return study_methods("gauss+*") | study_methods("kaiser+*") | study_methods("butter+*");
-}
 
 double study_best_db(const study_mesh_result_t *found, study_truth_t truth, study_methods_t methods)
 {

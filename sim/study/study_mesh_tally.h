@@ -1,33 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets of methods, and how often and by how much one set beats another: what claims are judged by.
+// How often and by how much one set of methods beats another: what claims are judged by.
 #ifndef SIM_STUDY_STUDY_MESH_TALLY_H
 #define SIM_STUDY_STUDY_MESH_TALLY_H
 
 #include <stdint.h>
 
 #include "sim/study/study_mesh.h"
-
-/** Bit m is method m of warp_methods[]. */
-typedef uint64_t study_methods_t;
-
-/** In a set, beside methods: what no method can beat. */
-static const study_methods_t STUDY_LIMIT = (study_methods_t)1 << 63;
-_Static_assert(WARP_METHODS < 63, "the last bit is the limit's");
-
-/**
- * Methods whose name matches a shell pattern: "kaiser+*", "ls", "*+nearest". Empty when the build has none.
- * "auto" only chooses among the others and is in no set.
- */
-study_methods_t study_methods(const char *pattern);
-
-/** All methods but "auto". */
-study_methods_t study_methods_all(void);
-
-/** Those of the paper: a filter, or none, with an interpolator; and ls. */
-study_methods_t study_methods_paper(void);
-
-/** Those of the paper that it compares: with a filter, but without ls. */
-study_methods_t study_methods_filtered(void);
+#include "sim/study/study_methods.h"
 
 /** @return The best PSNR of a set's methods, dB; minus infinity for an empty set. */
 double study_best_db(const study_mesh_result_t *found, study_truth_t truth, study_methods_t methods);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contests between methods, and that the figures which must hold fail as soon as the numbers do.
+// Sets of methods, contests between them, and that the figures which must hold fail as soon as the numbers do.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -51,7 +51,9 @@ static void sets_hold_what_they_say(void **state)
     assert_false(has(study_methods_paper(), "area") || has(study_methods_paper(), "mean+cubic"));
     assert_true(has(study_methods_filtered(), "butter+linear"));
     assert_false(has(study_methods_filtered(), "none+linear") || has(study_methods_filtered(), "area"));
-    assert_true((study_methods_all() & STUDY_LIMIT) == 0);
+    assert_false(has(study_methods_filtered(), "ls"));
+    assert_true(study_methods_family() == (study_methods("area") | study_methods("mean+*")));
+    assert_true((study_methods("*") & STUDY_LIMIT) == 0);
 }
 
 static void a_tally_counts_cases_and_finds_the_worst(void **state)
