@@ -152,18 +152,16 @@ static void report(study_t *study, const grids_t *grids)
     study_table(study, "fig05_k.csv",
                 "Step k: measured neighbour by neighbour, and as a board computes it, over pixels in the picture (in) "
                 "and over the whole wall (all).");
-    study_claim(study, away > 2e-5 ? STUDY_FAILS : STUDY_HOLDS, "wallwarp",
+    study_claim(study, study_verdict(away <= 2e-5, 1), "wallwarp",
                 "The k that a board computes from one pair of pixels of each row and column is the measured one.",
                 "Largest difference over these four grids: %.6f px.", away);
 }
 
 void study_fig05(study_t *study)
 {
-    grids_t *grids = calloc(1, sizeof *grids);
-    if (grids == NULL) {
-        study_fail(study, "out of memory");
+    grids_t *grids = study_memory(study, sizeof *grids);
+    if (grids == NULL)
         return;
-    }
     study_parallel(study, TURNS, make_grid, grids);
     write_lines(study, grids);
     write_steps(study, grids);

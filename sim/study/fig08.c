@@ -179,7 +179,7 @@ static void claim_paper(study_t *study, const figures_t *figures)
     const spread_t bend[] = {worst_spread(figures, 1, deviation), worst_spread(figures, 2, deviation)};
     const spread_t shape[] = {worst_spread(figures, 1, rectangularity), worst_spread(figures, 2, rectangularity)};
     study_claim(
-        study, bend[0].worst <= 2.0 ? STUDY_HOLDS : STUDY_FAILS, "paper, fig 8",
+        study, study_verdict(bend[0].worst <= 2.0, 1), "paper, fig 8",
         "With compensation, corner angles are off by 1 to 2 degrees only, even at extreme angles.",
         "Without noise the departure is %.3f degrees at most. With tracking noise of %g mm and %g degrees it is "
         "%.2f degrees on average and %.2f at worst; it takes %g mm and %g degrees to come to %.2f and %.2f. So "
@@ -188,7 +188,7 @@ static void claim_paper(study_t *study, const figures_t *figures)
         worst_compensated(figures, deviation, true), noises[1].position_mm, noises[1].orientation_deg, bend[0].mean,
         bend[0].worst, noises[2].position_mm, noises[2].orientation_deg, bend[1].mean, bend[1].worst);
     study_claim(
-        study, shape[0].worst >= 0.95 ? STUDY_HOLDS : STUDY_FAILS, "paper, fig 9",
+        study, study_verdict(shape[0].worst >= 0.95, 1), "paper, fig 9",
         "With compensation, rectangularity is high, around 0.95, even at extreme angles.",
         "Without noise it is %.4f at least. With tracking noise of %g mm and %g degrees it is %.4f on average and "
         "%.4f at worst; with %g mm and %g degrees %.4f and %.4f. So the paper's 0.95, too, must have errors of its "
@@ -205,20 +205,21 @@ static void claim_product(study_t *study, const figures_t *figures)
     const double shape_seen = worst_compensated(figures, rectangularity, true);
     const bool holds = fmax(bend_geometry, bend_seen) <= 0.05 && fmin(shape_geometry, shape_seen) >= 0.998;
     study_claim(
-        study, holds ? STUDY_HOLDS : STUDY_FAILS, "wallwarp",
+        study, study_verdict(holds, 1), "wallwarp",
         "Without noise, the corrected rectangle has right angles to 0.05 degrees and rectangularity of 0.998 or "
         "more, from -60 to 60 degrees.",
         "From geometry %.5f degrees and %.6f at worst: that is the fixed-point grid. Found in the view %.4f "
         "degrees and %.5f: that is how well corners can be found in a picture made of projector pixels.",
         bend_geometry, shape_geometry, bend_seen, shape_seen);
     const rectangle_views_t *side = &figures->result[figures->angles - 1][0];
-    study_claim(study,
-                fabs(side->seen.mean_deg - 12.3) < 0.1 && fabs(side->seen.rectangularity - 0.838) < 0.002 ? STUDY_HOLDS
-                                                                                                          : STUDY_FAILS,
-                "geometry",
-                "Uncompensated, at 60 degrees, corners are off by 12.3 degrees and rectangularity is 0.838.",
-                "From geometry %.3f degrees and %.4f; found in the rendered view %.3f degrees and %.4f.",
-                side->geometry.mean_deg, side->geometry.rectangularity, side->seen.mean_deg, side->seen.rectangularity);
+    study_claim(
+        study,
+        study_verdict(fabs(side->seen.mean_deg - 12.3) < 0.1 && fabs(side->seen.rectangularity - 0.838) < 0.002, 1),
+        "geometry",
+        "Uncompensated, at 60 degrees, corners are off by 12.3 degrees (to 0.1) and rectangularity is 0.838 "
+        "(to 0.002).",
+        "From geometry %.3f degrees and %.4f; found in the rendered view %.3f degrees and %.4f.",
+        side->geometry.mean_deg, side->geometry.rectangularity, side->seen.mean_deg, side->seen.rectangularity);
 }
 
 static void report(study_t *study, const figures_t *figures)
@@ -252,11 +253,9 @@ static void report(study_t *study, const figures_t *figures)
 
 void study_fig08(study_t *study)
 {
-    figures_t *figures = calloc(1, sizeof *figures);
-    if (figures == NULL) {
-        study_fail(study, "out of memory");
+    figures_t *figures = study_memory(study, sizeof *figures);
+    if (figures == NULL)
         return;
-    }
     const bool quick = study_quick(study);
     figures->study = study;
     figures->step_deg = quick ? 15 : 5;

@@ -37,7 +37,7 @@ typedef struct {
 } experiment_t;
 
 /* All sizes are halved with --quick. */
-static bool prepare(experiment_t *experiment)
+static void prepare(experiment_t *experiment)
 {
     const bool quick = study_quick(experiment->study);
     const int32_t part = quick ? 2 : 1;
@@ -54,9 +54,8 @@ static bool prepare(experiment_t *experiment)
         for (int32_t p = 0; p < experiment->photographs; p++)
             if (!study_image((study_image_t)p, sizes.picture_width, sizes.picture_height, 1,
                              &experiment->picture[size][p], NULL))
-                return false;
+                study_fail(experiment->study, "out of memory");
     }
-    return true;
 }
 
 /* Each case with all methods, not yet measured. */
@@ -114,7 +113,9 @@ static void write_points(const experiment_t *experiment)
 {
     FILE *csv =
         study_csv_begin(experiment->study, "flicker.csv", "sizes,angle_deg,picture,method,sharpness,flicker_levels");
-    for (int32_t c = 0; csv != NULL && c < PLOTS * experiment->photographs; c++)
+    if (csv == NULL)
+        return;
+    for (int32_t c = 0; c < PLOTS * experiment->photographs; c++)
         for (int32_t m = 0; m < experiment->methods; m++) {
             const flicker_point_t *point = &experiment->seen[c].point[m];
             const int32_t plot = c / experiment->photographs;
@@ -129,7 +130,9 @@ static void write_points(const experiment_t *experiment)
 static void write_marks(study_t *study, const char *name, const flicker_case_t *mean)
 {
     FILE *csv = study_csv_begin(study, name, "method,sharpness,others_levels,family_levels");
-    for (int32_t m = 0; csv != NULL && m < mean->points; m++) {
+    if (csv == NULL)
+        return;
+    for (int32_t m = 0; m < mean->points; m++) {
         const flicker_point_t *point = &mean->point[m];
         const bool family = flicker_in_family(point->name);
         fprintf(csv, "%s,%.4f,%s%.4f%s\n", point->name, point->sharpness, family ? "," : "", point->flicker,
@@ -196,10 +199,7 @@ static void claim(const experiment_t *experiment, const flicker_defeats_t *defea
                  " Worst: %s with sharpness %.3f and flicker %.2f against %.3f and %.2f of %s (%s).",
                  defeats->victor->name, defeats->victor->sharpness, defeats->victor->flicker,
                  defeats->victim->sharpness, defeats->victim->flicker, defeats->victim->name, defeats->worst->text);
-    const study_verdict_t verdict = defeats->defeats == 0                   ? STUDY_HOLDS
-                                    : 2 * defeats->defeats < defeats->pairs ? STUDY_PARTLY
-                                                                            : STUDY_FAILS;
-    study_claim(experiment->study, verdict, "wallwarp", text,
+    study_claim(experiment->study, study_verdict(defeats->pairs - defeats->defeats, defeats->pairs), "wallwarp", text,
                 "In %d of %d comparisons (a method from outside the family, a size, an angle, a picture) the outsider "
                 "is sharper by more than %g and steadier by more than %g gray levels.%s",
                 defeats->defeats, defeats->pairs, flicker_least_sharper, flicker_least_steadier, worst);
@@ -235,19 +235,15 @@ static void show(experiment_t *experiment)
 
 void study_flicker(study_t *study)
 {
-    experiment_t *experiment = calloc(1, sizeof *experiment);
-    if (experiment == NULL) {
-        study_fail(study, "out of memory");
+    experiment_t *experiment = study_memory(study, sizeof *experiment);
+    if (experiment == NULL)
         return;
-    }
     experiment->study = study;
-    if (prepare(experiment)) {
-        name_cases(experiment);
-        study_parallel(study, PLOTS * experiment->photographs * experiment->methods, measure, experiment);
+    prepare(experiment);
+    name_cases(experiment);
+    study_parallel(study, PLOTS * experiment->photographs * experiment->methods, measure, experiment);
+    if (!study_failed(study))
         show(experiment);
-    } else {
-        study_fail(study, "out of memory");
-    }
     for (int32_t size = 0; size < SIZES; size++)
         for (int32_t p = 0; p < PHOTOGRAPHS; p++)
             free(experiment->picture[size][p].data);

@@ -191,11 +191,9 @@ static void show_settings(study_t *study, const footprints_case_t one[STUDY_TRUT
 void study_footprints(study_t *study)
 {
     static const study_sizes_t paper = {1920, 1080, 1920, 1080}, small = {480, 270, 480, 270};
-    footprints_case_t *one = study_failed(study) ? NULL : calloc(STUDY_TRUTHS, sizeof *one);
-    if (one == NULL) {
-        study_fail(study, "out of memory");
+    footprints_case_t *one = study_memory(study, STUDY_TRUTHS * sizeof *one);
+    if (one == NULL)
         return;
-    }
     one[0] = (footprints_case_t){
         .at = {study_quick(study) ? small : paper, STUDY_STUDIO, .finer = 1, .factor = 4, .angle_deg = angle_deg},
         .truth = STUDY_TRUTH_PICTURE};

@@ -4,11 +4,6 @@
 
 static const double as_good = 1.02;
 
-static study_verdict_t verdict_of(int truths)
-{
-    return truths == STUDY_TRUTHS ? STUDY_HOLDS : truths == 0 ? STUDY_FAILS : STUDY_PARTLY;
-}
-
 footprints_verdicts_t footprints_verdicts(const footprints_parts_t parts[STUDY_TRUTHS])
 {
     int blurred = 0, aliased = 0, best = 0;
@@ -20,5 +15,6 @@ footprints_verdicts_t footprints_verdicts(const footprints_parts_t parts[STUDY_T
         best +=
             near[FOOTPRINTS_MEAN] <= as_good * near[FOOTPRINTS_NONE] && far[FOOTPRINTS_MEAN] < far[FOOTPRINTS_GAUSS];
     }
-    return (footprints_verdicts_t){verdict_of(blurred), verdict_of(aliased), verdict_of(best)};
+    return (footprints_verdicts_t){study_verdict(blurred, STUDY_TRUTHS), study_verdict(aliased, STUDY_TRUTHS),
+                                   study_verdict(best, STUDY_TRUTHS)};
 }

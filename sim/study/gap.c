@@ -164,10 +164,12 @@ static void show_contests(study_t *study, const study_mesh_sweep_t *sweep)
     gap_contests(contest);
     FILE *csv = study_csv_begin(study, "gap_claims.csv",
                                 "figure,room,cases,wins,worst_db,bound_db,picture,picture_width,panel_width,angle_deg");
+    if (csv == NULL)
+        return;
     for (int c = 0; c < GAP_CONTESTS; c++) {
         study_contest_claim(study, &(study_contest_claim_t){"wallwarp", contest[c].claim, &contest[c].duel, 1},
                             sweep->run, sweep->count);
-        for (int r = 0; r < ROOMS && csv != NULL; r++) {
+        for (int r = 0; r < ROOMS; r++) {
             const study_mesh_sweep_t room = of_room(sweep, r);
             const study_tally_t tally = study_tally(&contest[c].duel.contest, room.run, room.count);
             const study_mesh_case_t *worst = &room.run[tally.worst < 0 ? 0 : tally.worst].at;
@@ -176,8 +178,7 @@ static void show_contests(study_t *study, const study_mesh_sweep_t *sweep)
                     worst->sizes.picture_width, worst->sizes.panel_width, worst->angle_deg);
         }
     }
-    if (csv != NULL)
-        study_csv_end(study, csv);
+    study_csv_end(study, csv);
     study_table(study, "gap_claims.csv", "The figures that must hold, by room, with the worst case of each.");
 }
 

@@ -29,6 +29,5 @@ static bool rewarded(const double ahead_db[STUDY_TRUTHS])
 
 study_verdict_t gap_rewards_verdict(const gap_rewards_t *rewards)
 {
-    const int rewards_seen = rewarded(rewards->nearest_db) + rewarded(rewards->area_db);
-    return rewards_seen == 2 ? STUDY_HOLDS : rewards_seen == 0 ? STUDY_FAILS : STUDY_PARTLY;
+    return study_verdict(rewarded(rewards->nearest_db) + rewarded(rewards->area_db), 2);
 }

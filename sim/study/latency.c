@@ -97,7 +97,9 @@ static void write_late(const experiment_t *experiment)
 {
     FILE *csv = study_csv_begin(experiment->study, "latency.csv",
                                 "poses,content,latency_ms,mean_px,worst_px,mean_deg,worst_deg");
-    for (int t = 0; csv != NULL && t < LATENCY_TRACKS; t++)
+    if (csv == NULL)
+        return;
+    for (int t = 0; t < LATENCY_TRACKS; t++)
         for (int c = 0; c < CONTENTS; c++)
             for (int32_t step = 0; step < STEPS; step++) {
                 const latency_error_t *error = &experiment->late[t][c][step];
@@ -119,7 +121,9 @@ static void write_curves(const experiment_t *experiment)
     }
     strcat(header, ",walking dB,turning dB");
     FILE *csv = study_csv_begin(study, "latency_late.csv", header);
-    for (int32_t step = 0; csv != NULL && step < STEPS; step++) {
+    if (csv == NULL)
+        return;
+    for (int32_t step = 0; step < STEPS; step++) {
         fprintf(csv, "%g", part_of(step, worst_latency_s) * 1e3);
         for (int t = 0; t < LATENCY_TRACKS; t++)
             fprintf(csv, ",%.4f", latency_mean_px(&experiment->late[t][BEHIND][step]));
@@ -129,7 +133,9 @@ static void write_curves(const experiment_t *experiment)
     csv = study_csv_begin(study, "latency_noise.csv",
                           "position_mm,wall px,wall and picture px,wall dB,"
                           "orientation_deg,wall px,wall and picture px,wall dB");
-    for (int32_t step = 0; csv != NULL && step < STEPS; step++)
+    if (csv == NULL)
+        return;
+    for (int32_t step = 0; step < STEPS; step++)
         fprintf(csv, "%g,%.4f,%.4f,%.3f,%g,%.4f,%.4f,%.3f\n", part_of(step, worst_noise_mm),
                 latency_mean_px(&experiment->moved[0][step]), latency_mean_px(&experiment->moved[1][step]),
                 experiment->moved_db[step], part_of(step, worst_noise_deg),
@@ -160,7 +166,9 @@ static void write_needs(const experiment_t *experiment)
     FILE *csv =
         study_csv_begin(experiment->study, "latency_needs.csv",
                         "at 50 ms,px,degrees,worst px,px on the wall,px far away,ms for 1 px,ms for 1 px at worst");
-    for (int t = 0; csv != NULL && t < LATENCY_TRACKS; t++) {
+    if (csv == NULL)
+        return;
+    for (int t = 0; t < LATENCY_TRACKS; t++) {
         const latency_error_t *error = &experiment->late[t][BEHIND][AT_50_MS];
         fprintf(csv, "%s,%.2f,%.3f,%.1f,%.2f,%.2f,%.1f,%.1f\n", latency_track_name((latency_track_t)t),
                 latency_mean_px(error), latency_mean_deg(error), error->worst_px,
@@ -244,16 +252,18 @@ static void claims(const experiment_t *experiment)
     const double trap = latency_mean_px(&experiment->late[LATENCY_TRAP][BEHIND][AT_50_MS]);
     const double one_pose = latency_mean_px(&experiment->late[LATENCY_ONE_POSE][BEHIND][AT_50_MS]);
     const double one_turn = latency_mean_px(&experiment->late[LATENCY_ONE_TURN][BEHIND][AT_50_MS]);
-    study_claim(experiment->study, trap > 3.0 * fmax(one_pose, one_turn) ? STUDY_HOLDS : STUDY_FAILS, "wallwarp",
-                "The wall must be corrected for the orientation that its picture was drawn for, not for the newest.",
-                "With a picture 50 ms old and a head that walks and turns, the newest pose puts content %.0f px off; "
-                "the picture's own pose %.1f px, and its orientation at the newest position %.1f px.",
-                trap, one_pose, one_turn);
+    study_claim(
+        experiment->study, study_verdict(trap > 3.0 * fmax(one_pose, one_turn), 1), "wallwarp",
+        "The wall must be corrected for the orientation that its picture was drawn for: the newest puts content "
+        "three times as far off, or more.",
+        "With a picture 50 ms old and a head that walks and turns, the newest pose puts content %.0f px off; "
+        "the picture's own pose %.1f px, and its orientation at the newest position %.1f px.",
+        trap, one_pose, one_turn);
     const double alone = latency_mean_px(&experiment->turned[0][STEPS - 1]);
     const double both = latency_mean_px(&experiment->turned[1][STEPS - 1]);
     study_claim(
-        experiment->study, both < 0.1 * alone ? STUDY_HOLDS : STUDY_FAILS, "wallwarp",
-        "Noise of the tracked orientation does not matter when picture and wall use the same pose.",
+        experiment->study, study_verdict(both < 0.1 * alone, 1), "wallwarp",
+        "When picture and wall use the same pose, noise of its orientation costs less than a tenth.",
         "With %g degrees of noise content is %.0f px off when only the wall's pose has it, and %.2f px when the "
         "picture was drawn for the same noisy pose.",
         worst_noise_deg, alone, both);
@@ -277,23 +287,20 @@ static void show(const experiment_t *experiment)
 
 void study_latency(study_t *study)
 {
-    experiment_t *experiment = calloc(1, sizeof *experiment);
-    if (experiment == NULL) {
-        study_fail(study, "out of memory");
+    experiment_t *experiment = study_memory(study, sizeof *experiment);
+    if (experiment == NULL)
         return;
-    }
     const study_sizes_t seen =
         study_quick(study) ? (study_sizes_t){240, 135, 240, 135} : (study_sizes_t){480, 270, 480, 270};
     experiment->study = study;
     experiment->view_times = study_quick(study) ? 2 : 5;
     study_scene(&experiment->scene, &full_hd);
     study_scene(&experiment->view_scene, &seen);
-    if (study_image(STUDY_STUDIO, seen.picture_width, seen.picture_height, 1, &experiment->picture, NULL)) {
-        study_parallel(study, STEPS, measure, experiment);
-        show(experiment);
-    } else {
+    if (!study_image(STUDY_STUDIO, seen.picture_width, seen.picture_height, 1, &experiment->picture, NULL))
         study_fail(study, "out of memory");
-    }
+    study_parallel(study, STEPS, measure, experiment);
+    if (!study_failed(study))
+        show(experiment);
     free(experiment->picture.data);
     free(experiment);
 }

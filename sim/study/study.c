@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -32,6 +33,19 @@ void study_fail(study_t *study, const char *format, ...)
         atomic_store(&study->failed, true);
     }
     pthread_mutex_unlock(&study->lock);
+}
+
+void *study_memory(study_t *study, size_t size)
+{
+    void *memory = study_failed(study) ? NULL : calloc(1, size);
+    if (memory == NULL)
+        study_fail(study, "out of memory");
+    return memory;
+}
+
+study_verdict_t study_verdict(int64_t held, int64_t cases)
+{
+    return held == 0 ? STUDY_FAILS : held < cases ? STUDY_PARTLY : STUDY_HOLDS;
 }
 
 const char *study_path(study_t *study, const char *name, char path[FILE_ERROR_LENGTH])

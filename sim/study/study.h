@@ -24,6 +24,9 @@ bool study_failed(const study_t *study);
 /** Remember a failure; only the first is kept and told at the end. */
 void study_fail(study_t *study, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/** @return So many bytes, all 0, to be given to free(); NULL when the study has failed, which it has without memory. */
+void *study_memory(study_t *study, size_t size);
+
 /** One piece of work of an experiment: it writes only its own slot of what context points to. */
 typedef void study_task_fn(void *context, int32_t index);
 
@@ -35,7 +38,7 @@ void study_parallel(study_t *study, int32_t count, study_task_fn *task, void *co
  *
  * @param name    "fig10.csv".
  * @param header  Its first line, without newline.
- * @return Where to print rows to, or NULL after a failure. To be given to study_csv_end().
+ * @return Where to print rows to, then to be given to study_csv_end(); NULL after a failure.
  */
 FILE *study_csv_begin(study_t *study, const char *name, const char *header);
 void study_csv_end(study_t *study, FILE *csv);
@@ -83,6 +86,9 @@ void study_table(study_t *study, const char *csv, const char *caption);
 void study_data(study_t *study, const char *csv, const char *caption);
 
 typedef enum { STUDY_HOLDS, STUDY_FAILS, STUDY_PARTLY } study_verdict_t;
+
+/** @return What a claim's cases make of it: it holds in all, in some (in part), in none (or there are none: fails). */
+study_verdict_t study_verdict(int64_t held, int64_t cases);
 
 /**
  * A claim, of the paper or of this product, and what this study's own numbers say to it.

@@ -115,11 +115,9 @@ bool study_mesh_sweep(study_mesh_sweep_t *sweep, study_t *study, const study_mes
                       double step_deg)
 {
     const int32_t angles = (int32_t)floor(STUDY_MESH_MAX_ANGLE_DEG / step_deg + 1e-9) + 1, count = places * angles;
-    study_mesh_run_t *run = study_failed(study) ? NULL : calloc((size_t)count, sizeof *run);
-    if (run == NULL) {
-        study_fail(study, "out of memory");
+    study_mesh_run_t *run = study_memory(study, (size_t)count * sizeof *run);
+    if (run == NULL)
         return false;
-    }
     for (int32_t n = 0; n < count; n++) {
         run[n].at = place[n / angles];
         run[n].at.angle_deg = n % angles * step_deg;

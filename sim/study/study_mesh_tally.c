@@ -58,9 +58,7 @@ study_verdict_t study_contest_verdict(const study_contest_claim_t *claim, const 
         cases += tally.cases;
         wins += tally.wins;
     }
-    if (wins == 0)
-        return STUDY_FAILS;
-    return wins == cases ? STUDY_HOLDS : STUDY_PARTLY;
+    return study_verdict(wins, cases);
 }
 
 /* How a contest ended, or nothing when it had no case. */
