@@ -179,6 +179,13 @@ static void show_contests(study_t *study, const study_mesh_sweep_t *sweep)
         }
     }
     study_csv_end(study, csv);
+    const double area_db = study_tally(&contest[0].duel.contest, sweep->run, sweep->count).worst_db;
+    const double means_db = study_tally(&contest[2].duel.contest, sweep->run, sweep->count).worst_db;
+    study_headline(study,
+                   "By the paper's measure area is at most %.2f dB below what is possible; against a finer original, "
+                   "which is nearer to what an eye wants, the better of mean+cubic and mean+spline is at most %.2f dB "
+                   "below the best other method.",
+                   fmax(-area_db, 0.0), fmax(-means_db, 0.0));
     study_table(study, "gap_claims.csv", "The figures that must hold, by room, with the worst case of each.");
 }
 

@@ -85,13 +85,17 @@ void study_table(study_t *study, const char *csv, const char *caption);
 /** Offer a CSV file that is too long to show. */
 void study_data(study_t *study, const char *csv, const char *caption);
 
-typedef enum { STUDY_HOLDS, STUDY_FAILS, STUDY_PARTLY } study_verdict_t;
+typedef enum { STUDY_HOLDS, STUDY_PARTLY, STUDY_FAILS, STUDY_VERDICTS } study_verdict_t;
 
 /** @return What a claim's cases make of it: it holds in all, in some (in part), in none (or there are none: fails). */
 study_verdict_t study_verdict(int64_t held, int64_t cases);
 
+/** One sentence for the top of the page: what came out, in this run's own numbers. */
+void study_headline(study_t *study, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
 /**
- * A claim, of the paper or of this product, and what this study's own numbers say to it.
+ * A claim, of the paper or of this product, and what this study's own numbers say to it. The list at the top of the
+ * page leads here.
  *
  * @param source  "paper, fig 10" or "wallwarp".
  * @param claim   One sentence.

@@ -18,9 +18,10 @@ typedef struct {
 struct study {
     study_options_t options;
     study_progress_t progress;
-    study_buffer_t contents, claims, sections;
+    study_buffer_t contents, headlines, claims, sections;
     int section_count;
-    bool figures_open; /**< a row of figures has begun */
+    int claims_of[STUDY_VERDICTS]; /**< by verdict */
+    bool figures_open;             /**< a row of figures has begun */
     pthread_mutex_t lock;
     atomic_bool failed;
     char error[FILE_ERROR_LENGTH]; /**< written under lock */

@@ -46,7 +46,8 @@ static bool open_buffer(study_buffer_t *buffer)
 
 void study_page_open(study_t *study)
 {
-    if (!open_buffer(&study->contents) || !open_buffer(&study->claims) || !open_buffer(&study->sections))
+    if (!open_buffer(&study->contents) || !open_buffer(&study->headlines) || !open_buffer(&study->claims) ||
+        !open_buffer(&study->sections))
         study_fail(study, "out of memory");
 }
 
@@ -60,6 +61,7 @@ static void close_buffer(study_buffer_t *buffer)
 void study_page_close(study_t *study)
 {
     close_buffer(&study->contents);
+    close_buffer(&study->headlines);
     close_buffer(&study->claims);
     close_buffer(&study->sections);
 }
@@ -170,12 +172,38 @@ void study_data(study_t *study, const char *csv, const char *caption)
     fputs("</p>\n", file);
 }
 
+static int all_claims(const study_t *study)
+{
+    int claims = 0;
+    for (int v = 0; v < STUDY_VERDICTS; v++)
+        claims += study->claims_of[v];
+    return claims;
+}
+
+void study_headline(study_t *study, const char *format, ...)
+{
+    if (study_failed(study))
+        return;
+    char text[TEXT_LENGTH];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    print_element(study->headlines.file, "<p>", text, "</p>\n");
+}
+
+static void print_claim(FILE *file, study_verdict_t verdict, const char *source, const char *claim)
+{
+    static const char *const pills[] = {
+        [STUDY_HOLDS] = "good\">holds", [STUDY_PARTLY] = "part\">holds in part", [STUDY_FAILS] = "bad\">does not hold"};
+    fprintf(file, "<span class=\"pill %s</span>", pills[verdict]);
+    print_element(file, "<div><b>", claim, "</b>");
+    print_element(file, " <small>", source, "</small>");
+}
+
 void study_claim(study_t *study, study_verdict_t verdict, const char *source, const char *claim, const char *format,
                  ...)
 {
-    static const char *const words[] = {
-        [STUDY_HOLDS] = "holds", [STUDY_FAILS] = "does not hold", [STUDY_PARTLY] = "holds in part"};
-    static const char *const classes[] = {[STUDY_HOLDS] = "good", [STUDY_FAILS] = "bad", [STUDY_PARTLY] = "part"};
     if (study_failed(study))
         return;
     char why[TEXT_LENGTH];
@@ -184,18 +212,14 @@ void study_claim(study_t *study, study_verdict_t verdict, const char *source, co
     vsnprintf(why, sizeof why, format, arguments);
     va_end(arguments);
     end_figures(study);
-    const struct {
-        FILE *file;
-        const char *begin, *end;
-    } place[] = {{study->claims.file, "<div class=\"claim\">", "</div>\n"},
-                 {study->sections.file, "<div class=\"claim card\">", "</div>\n"}};
-    for (size_t p = 0; p < sizeof place / sizeof *place; p++) {
-        fprintf(place[p].file, "%s<span class=\"pill %s\">%s</span>", place[p].begin, classes[verdict], words[verdict]);
-        print_element(place[p].file, "<div><b>", claim, "</b>");
-        print_element(place[p].file, " <small>", source, "</small>");
-        print_element(place[p].file, "<p>", why, "</p></div>");
-        fputs(place[p].end, place[p].file);
-    }
+    study->claims_of[verdict]++;
+    const int number = all_claims(study);
+    fprintf(study->claims.file, "<a class=\"claim\" href=\"#c%d\">", number);
+    print_claim(study->claims.file, verdict, source, claim);
+    fputs("</div></a>\n", study->claims.file);
+    fprintf(study->sections.file, "<div class=\"claim card\" id=\"c%d\">", number);
+    print_claim(study->sections.file, verdict, source, claim);
+    print_element(study->sections.file, "<p>", why, "</p></div></div>\n");
 }
 
 /* Write the page up to a mark, and there the buffer. */
@@ -210,7 +234,7 @@ void study_page_write(study_t *study)
     if (study_failed(study))
         return;
     end_section(study);
-    study_buffer_t *const buffers[] = {&study->contents, &study->claims, &study->sections};
+    study_buffer_t *const buffers[] = {&study->contents, &study->headlines, &study->claims, &study->sections};
     for (size_t b = 0; b < sizeof buffers / sizeof *buffers; b++)
         if (fflush(buffers[b]->file) != 0) {
             study_fail(study, "out of memory");
@@ -223,8 +247,12 @@ void study_page_write(study_t *study)
         return;
     }
     html_template_t page = html_template_begin(file, study_template, study_template_end);
-    print_part(&page, "<!--CONTENTS-->", &study->contents);
+    print_part(&page, "<!--HEADLINES-->", &study->headlines);
+    html_template_until(&page, "<!--COUNT-->");
+    fprintf(file, "%d claims: %d hold, %d in part, %d not.", all_claims(study), study->claims_of[STUDY_HOLDS],
+            study->claims_of[STUDY_PARTLY], study->claims_of[STUDY_FAILS]);
     print_part(&page, "<!--CLAIMS-->", &study->claims);
+    print_part(&page, "<!--CONTENTS-->", &study->contents);
     print_part(&page, "<!--SECTIONS-->", &study->sections);
     html_template_end(&page);
     if (!folder_close_file(file, "index.html", error))

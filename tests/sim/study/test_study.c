@@ -61,6 +61,7 @@ static void say_everything(study_t *study)
     study_claim(study, STUDY_PARTLY, "paper, fig 1", "A claim", "because %d", 5);
     study_section(study, "Second", "none");
     study_claim(study, STUDY_FAILS, "wallwarp", "Another claim", "no");
+    study_headline(study, "%d > %d", 4, 3);
 }
 
 static int count_of(const char *text, const char *word)
@@ -85,9 +86,12 @@ static void page_holds_all_escaped_and_closed(void **state)
         "<tr><th>name&lt;1&gt;</th><th>value</th></tr>",
         "<tr><td>a&amp;b</td><td>1</td></tr>",
         "The same &amp; more: <a href=\"table.csv\">table.csv</a></p>",
-        "<p>because 5</p>",
-        "holds in part",
-        "does not hold",
+        "<div class=\"headlines\">\n<p>4 &gt; 3</p>\n</div>",
+        "2 claims: 0 hold, 1 in part, 1 not.",
+        "<a class=\"claim\" href=\"#c1\"><span class=\"pill part\">holds in part</span>",
+        "id=\"c1\"><span class=\"pill part\">holds in part</span>",
+        "<p>because 5</p></div></div>",
+        "id=\"c2\"><span class=\"pill bad\">does not hold</span>",
         "<a href=\"#s2\">Second</a>",
     };
     for (size_t n = 0; n < sizeof expected / sizeof *expected; n++) {
