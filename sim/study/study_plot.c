@@ -46,7 +46,8 @@ void study_plot(study_t *study, const study_plot_t *plot)
     }
     gnuplot_output(&gnuplot, study->options.folder, plot->name, plot->width > 0 ? plot->width : WIDTH,
                    plot->height > 0 ? plot->height : HEIGHT);
-    fputs("set datafile separator comma\nset key width -3\n", gnuplot.pipe); /* three columns of names fit */
+    fputs("set datafile separator comma\nset key width -3 maxcols 3\n",
+          gnuplot.pipe); /* as many columns of names as fit */
     print_label(&gnuplot, "title", plot->title, "");
     print_label(&gnuplot, "xlabel", plot->x_label, "offset 0,0.3");
     print_label(&gnuplot, "ylabel", plot->y_label, "");
