@@ -23,17 +23,23 @@ void advice_print_csv(FILE *out, const wall_advice_t *advice)
     }
 }
 
-/* The methods, the one closest to a finer original first; of equal ones the cheaper. */
+/* Closest to a finer original first; of equal ones the cheaper, and last auto, whose choice is then always the other.
+ */
+static bool is_before(const wall_advice_t *advice, int32_t m, int32_t other)
+{
+    if (advice->gap_original_db[m] != advice->gap_original_db[other])
+        return advice->gap_original_db[m] < advice->gap_original_db[other];
+    if (advice->cost[m] != advice->cost[other])
+        return advice->cost[m] < advice->cost[other];
+    return warp_methods[other].resampler == WARP_AUTO;
+}
+
 static void rank(const wall_advice_t *advice, int32_t order[WARP_METHODS])
 {
     for (int32_t m = 0; m < WARP_METHODS; m++) {
         int32_t at = m;
-        for (; at > 0; at--) {
-            const double better = advice->gap_original_db[order[at - 1]] - advice->gap_original_db[m];
-            if (better < 0.0 || (better == 0.0 && !(advice->cost[m] < advice->cost[order[at - 1]])))
-                break;
+        for (; at > 0 && is_before(advice, m, order[at - 1]); at--)
             order[at] = order[at - 1];
-        }
         order[at] = m;
     }
 }
@@ -42,10 +48,10 @@ static void print_advice(FILE *out, const wall_advice_t *advice, const int32_t o
 {
     const int32_t best = order[0];
     int32_t cheap = best;
-    for (int32_t m = 0; m < WARP_METHODS; m++)
-        if (advice->gap_original_db[m] <= advice->gap_original_db[best] + unseen_db &&
-            advice->cost[m] < advice->cost[cheap])
-            cheap = m;
+    for (int32_t i = 0; i < WARP_METHODS; i++)
+        if (advice->gap_original_db[order[i]] <= advice->gap_original_db[best] + unseen_db &&
+            advice->cost[order[i]] < advice->cost[cheap])
+            cheap = order[i];
     fprintf(out, "  advice: method: %s", warp_methods[best].name);
     fputs(advice->board->method == &warp_methods[best] ? ", as it is" : "", out);
     if (cheap != best)

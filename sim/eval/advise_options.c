@@ -101,7 +101,7 @@ void advise_options_parse(advise_options_t *options, int argc, char **argv)
         {.name = "height",
          .key = 'e',
          .arg = "MM",
-         .doc = "Of the eye above the lowest corner of all walls (default 1700)"},
+         .doc = "Height of the eye above the lowest corner of all walls (default 1700)"},
         {.name = "up", .key = 'u', .arg = "AXIS", .doc = "The world's way up: x, y, z, -x, -y or -z"},
         {.name = "csv", .key = 'c', .doc = "Print CSV instead of a table to read"},
         {0},
@@ -117,14 +117,14 @@ void advise_options_parse(advise_options_t *options, int argc, char **argv)
             "Where k is least, median and largest, every method warps a built-in picture (edges of all sizes, "
             "amplitude 1/f, as photographs have), with picture and projector made smaller alike. Gaps are dB below "
             "the limit, means of the three: 'gap_db' with the picture's own pixels for the truth, as in the paper, "
-            "'gap_original_db' with an original 4 times as fine, which is nearer to what an eye wants. Other walls "
-            "that stand before a wall do not count.\n\n"
+            "'gap_original_db' with an original 4 times as fine, which is nearer to what an eye wants. That other "
+            "walls may hide a wall is not considered.\n\n"
             "Cost: texels read per projector pixel, plus filter taps per picture pixel times the picture's pixels "
             "per projector pixel. none+nearest is 1.\n\n"
             "Unless given, up is the axis towards which most walls have the tops of their pictures, and the area is "
-            "the "
-            "rectangle around all walls, 0.5 m inside of it; a wall that stands alone is walked before, for its own "
-            "width but at least 3 m.\n\n"
+            "the rectangle around all walls, less 0.5 m on every side. Before a wall that stands alone the area "
+            "reaches "
+            "as far as the wall is wide, and at least 3 m.\n\n"
             "--csv: board,method,k_min,k_median,k_max,gap_db,gap_original_db,cost; '-' where the wall is not seen.",
     };
     *options = (advise_options_t){.height_mm = WALK_DEFAULT_HEIGHT_MM};

@@ -57,7 +57,10 @@ int eval_study(int argc, char **argv)
     static const struct argp_option own[] = {
         {.name = "quick", .key = 'q', .doc = "Fewer angles and smaller pictures: under a minute on two cores"},
         {.name = "out", .key = 'o', .arg = "DIR", .doc = "Folder for index.html and its files; made if it is missing"},
-        {.name = "only", .key = 'e', .arg = "NAME", .doc = "Run this experiment alone, such as 'fig 5'"},
+        {.name = "only",
+         .key = 'e',
+         .arg = "NAME",
+         .doc = "Run this experiment alone, such as 'fig 5'; a wrong name lists them all"},
         {0},
     };
     static const struct argp argp = {

@@ -112,6 +112,11 @@ static void advice_names_a_cheaper_one(void **state)
                 "\n  advice: method: mean+cubic; area is within 0.1 dB of it at 25 % of its cost\n");
     set(&advice, "area", 0.36, 5.0);
     assert_says(advice_print_table, &advice, "\n  advice: method: mean+cubic\n");
+    /* where auto is mean+cubic everywhere, nobody needs it */
+    set(&advice, "auto", 0.25, 20.0);
+    assert_says(advice_print_table, &advice, "\n  advice: method: mean+cubic\n");
+    set(&advice, "mean+spline", 0.2, 24.0);
+    assert_says(advice_print_table, &advice, "; mean+cubic is within 0.1 dB of it at 83 % of its cost\n");
 }
 
 static void warnings_name_what_is_wrong(void **state)
