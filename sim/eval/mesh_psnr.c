@@ -181,16 +181,16 @@ int64_t mesh_square_error(const mesh_t *mesh, const image_t *panel)
     return error;
 }
 
-double mesh_db(int64_t square_error, int64_t samples)
+double mesh_db(double square_error, int64_t samples)
 {
-    if (square_error == 0)
+    if (!(square_error > 0.0))
         return HUGE_VAL;
-    return 10.0 * log10(255.0 * 255.0 * (double)samples / (double)square_error);
+    return 10.0 * log10(255.0 * 255.0 * (double)samples / square_error);
 }
 
 double mesh_psnr_db(const mesh_t *mesh, const image_t *panel)
 {
-    return mesh_db(mesh_square_error(mesh, panel), mesh->covered);
+    return mesh_db((double)mesh_square_error(mesh, panel), mesh->covered);
 }
 
 static uint8_t mean_of(const mesh_cell_t *cell)

@@ -69,7 +69,7 @@ void mesh_free(mesh_t *mesh);
 int64_t mesh_square_error(const mesh_t *mesh, const image_t *panel);
 
 /** @return PSNR over so many samples, dB, peak 255; infinity when the error is 0 (also without samples). */
-double mesh_db(int64_t square_error, int64_t samples);
+double mesh_db(double square_error, int64_t samples);
 
 /** @return mesh_db() of the panel over its covered samples. */
 double mesh_psnr_db(const mesh_t *mesh, const image_t *panel);

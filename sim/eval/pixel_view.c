@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "sim/eval/double_view.h"
+#include "sim/eval/mesh_psnr.h"
 
 /* What the samples are traced with. */
 typedef struct {
@@ -102,13 +103,6 @@ typedef struct {
     int64_t count;
 } error_t;
 
-static double psnr_db(error_t error)
-{
-    if (!(error.square > 0.0))
-        return HUGE_VAL;
-    return 10.0 * log10(255.0 * 255.0 * (double)error.count / error.square);
-}
-
 static void add_error(error_t *error, double off)
 {
     error->square += off * off;
@@ -187,5 +181,7 @@ pixel_psnr_t pixel_view_psnr(const pixel_view_t *view, const image_t *panel, con
     error_t fine = {0.0, 0}, fine_uneven = {0.0, 0};
     const error_t eye = compare_as_eye(&(compare_t){view, panel, truth, false}, &fine);
     const error_t uneven = compare_as_eye(&(compare_t){view, panel, truth, true}, &fine_uneven);
-    return (pixel_psnr_t){.fine = psnr_db(fine), .eye = psnr_db(eye), .uneven = psnr_db(uneven)};
+    return (pixel_psnr_t){.fine = mesh_db(fine.square, fine.count),
+                          .eye = mesh_db(eye.square, eye.count),
+                          .uneven = mesh_db(uneven.square, uneven.count)};
 }

@@ -30,7 +30,7 @@ void psnr_row_print(FILE *out, const psnr_row_t *row)
         fprintf(out, "%s,", row->board);
     if (row->channel != NULL)
         fprintf(out, "%s,", row->channel);
-    fprintf(out, "%s,%.3f,%.3f,%.4f,%.4f,%.4f\n", row->method, mesh_db(row->square_error, row->covered),
-            mesh_db(row->limit_square_error, row->covered), row->step.in_q16 / 65536.0, row->step.all_q16 / 65536.0,
-            (double)row->covered / (double)row->samples);
+    fprintf(out, "%s,%.3f,%.3f,%.4f,%.4f,%.4f\n", row->method, mesh_db((double)row->square_error, row->covered),
+            mesh_db((double)row->limit_square_error, row->covered), row->step.in_q16 / 65536.0,
+            row->step.all_q16 / 65536.0, (double)row->covered / (double)row->samples);
 }

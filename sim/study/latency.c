@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "sim/study/study_walk.h"
+#include "sim/eval/mesh_psnr.h"
 #include "sim/study/latency_tracks.h"
 #include "sim/study/latency_view.h"
 #include "sim/study/study_experiments.h"
@@ -63,10 +64,10 @@ static bool see(experiment_t *experiment, int32_t step)
             made = latency_view_add(&sum[kind], &experiment->view_scene, &experiment->picture, &corrected[kind],
                                     kind == 1 ? &turning : &walking);
     }
-    experiment->late_db[0][step] = latency_psnr_db(&sum[0]);
-    experiment->late_db[1][step] = latency_psnr_db(&sum[1]);
-    experiment->moved_db[step] = latency_psnr_db(&sum[2]);
-    experiment->turned_db[step] = latency_psnr_db(&sum[3]);
+    experiment->late_db[0][step] = mesh_db(sum[0].square, sum[0].pixels);
+    experiment->late_db[1][step] = mesh_db(sum[1].square, sum[1].pixels);
+    experiment->moved_db[step] = mesh_db(sum[2].square, sum[2].pixels);
+    experiment->turned_db[step] = mesh_db(sum[3].square, sum[3].pixels);
     return made;
 }
 

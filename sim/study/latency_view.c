@@ -2,7 +2,6 @@
 // What the eye sees of a wall that was corrected for another pose, against the picture.
 #include "sim/study/latency_view.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -76,11 +75,4 @@ bool latency_view_add(latency_square_t *sum, const study_scene_t *scene, const i
     }
     bench_close(&bench);
     return made;
-}
-
-double latency_psnr_db(const latency_square_t *sum)
-{
-    if (!(sum->square > 0.0))
-        return HUGE_VAL;
-    return 10.0 * log10(255.0 * 255.0 * (double)sum->pixels / sum->square);
 }

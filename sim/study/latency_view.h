@@ -21,7 +21,4 @@ typedef struct {
 bool latency_view_add(latency_square_t *sum, const study_scene_t *scene, const image_t *picture,
                       const pose_t *corrected, const pose_t *eye);
 
-/** @return dB, peak 255; infinity when nothing differs. */
-double latency_psnr_db(const latency_square_t *sum);
-
 #endif

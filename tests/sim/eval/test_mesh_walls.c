@@ -113,7 +113,7 @@ static void errors_of_walls_add_up(void **state)
     sample(mesh, walls, 2);
     const int64_t error = mesh_square_error(&mesh[0], &left_panel) + mesh_square_error(&mesh[1], &right_panel);
     assert_int_equal(error, 16 * (3 * 3 + 4 * 4));
-    const double db = mesh_db(error, mesh[0].covered + mesh[1].covered);
+    const double db = mesh_db((double)error, mesh[0].covered + mesh[1].covered);
     assert_true(fabs(db - 10.0 * log10(255.0 * 255.0 * 8 / 25)) < 1e-9);
     assert_true(isinf(mesh_db(0, 0)));
     free_meshes(mesh, 2);
