@@ -39,21 +39,6 @@ static void measure(void *context, int32_t index)
     study_mesh_close(&mesh);
 }
 
-/* Of the bins [from, to) square picture pixels. */
-static footprints_bin_t part_of(const footprints_case_t *one, int method, double from, double to)
-{
-    footprints_bin_t part = {0};
-    for (int b = 0; b < FOOTPRINTS_BINS; b++) {
-        const footprints_bin_t *bin = &one->bin[method][b];
-        if (footprints_bin_area(b) < from || footprints_bin_area(b) >= to)
-            continue;
-        part.pixels += bin->pixels;
-        part.samples += bin->samples;
-        part.error += bin->error;
-    }
-    return part;
-}
-
 /* Rms error above the limit, gray levels; NAN without samples. */
 static double rms_of(const footprints_bin_t *bin)
 {
@@ -66,14 +51,15 @@ static void write_bins(study_t *study, const footprints_case_t *one, const char 
     FILE *csv = study_curves_begin(study, name, "area_px2,pixels_percent");
     if (csv == NULL)
         return;
-    const double pixels = (double)part_of(one, 0, 0.0, HUGE_VAL).pixels;
+    const double pixels = (double)footprints_bins_sum(one->bin[0], 0.0, HUGE_VAL).pixels;
     for (int b = 0; b < FOOTPRINTS_BINS; b++) {
         if (one->bin[0][b].pixels == 0)
             continue;
         double value[WARP_METHODS];
         for (int m = 0; m < WARP_METHODS; m++) {
             const footprints_bin_t *bin = &one->bin[m][b];
-            value[m] = shares ? 100.0 * bin->error / part_of(one, m, 0.0, HUGE_VAL).error : rms_of(bin);
+            value[m] =
+                shares ? 100.0 * bin->error / footprints_bins_sum(one->bin[m], 0.0, HUGE_VAL).error : rms_of(bin);
         }
         fprintf(csv, "%.4g,%.3f", sqrt(footprints_bin_area(b) * footprints_bin_area(b + 1)),
                 100.0 * (double)one->bin[0][b].pixels / pixels);
@@ -112,7 +98,7 @@ static double rms_between(const footprints_case_t *one, const char *name, double
     const warp_method_t *method = warp_method_from_name(name);
     if (method == NULL)
         return (double)NAN;
-    const footprints_bin_t part = part_of(one, (int)(method - warp_methods), from, to);
+    const footprints_bin_t part = footprints_bins_sum(one->bin[method - warp_methods], from, to);
     return rms_of(&part);
 }
 

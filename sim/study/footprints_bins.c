@@ -49,3 +49,16 @@ void footprints_bins(footprints_bin_t bin[FOOTPRINTS_BINS], const mesh_t *mesh, 
         }
     }
 }
+
+footprints_bin_t footprints_bins_sum(const footprints_bin_t bin[FOOTPRINTS_BINS], double from, double to)
+{
+    footprints_bin_t sum = {0};
+    for (int b = 0; b < FOOTPRINTS_BINS; b++) {
+        if (footprints_bin_area(b) < from || footprints_bin_area(b) >= to)
+            continue;
+        sum.pixels += bin[b].pixels;
+        sum.samples += bin[b].samples;
+        sum.error += bin[b].error;
+    }
+    return sum;
+}

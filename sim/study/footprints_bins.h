@@ -32,4 +32,7 @@ double footprints_area(const double_homography_t *homography, int32_t i, int32_t
 void footprints_bins(footprints_bin_t bin[FOOTPRINTS_BINS], const mesh_t *mesh, const double_homography_t *homography,
                      const image_t *panel);
 
+/** @return The sum of the bins whose smallest area is in [from, to). */
+footprints_bin_t footprints_bins_sum(const footprints_bin_t bin[FOOTPRINTS_BINS], double from, double to);
+
 #endif

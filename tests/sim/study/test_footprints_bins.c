@@ -81,21 +81,42 @@ static void areas_are_what_samples_measure(void **state)
 static void a_pixel_falls_in_the_bin_of_its_area(void **state)
 {
     (void)state;
-    const study_mesh_case_t at = {{16, 12, 16, 12}, STUDY_NOISE, 1, 4, 0}; /* all areas are 1 */
+    const study_mesh_case_t at = {{40, 30, 24, 28}, STUDY_NOISE, 1, 8, 50};
     study_mesh_t mesh;
     char error[FILE_ERROR_LENGTH] = "";
     if (!study_mesh_open(&mesh, &at, error))
         fail_msg("%s", error);
     study_mesh_warp(&mesh, 0);
     footprints_bin_t bin[FOOTPRINTS_BINS];
-    footprints_bins(bin, &mesh.mesh[STUDY_TRUTH_PICTURE], &mesh.exact, &mesh.panel);
-    int64_t about_one = 0;
-    for (int b = 0; b < FOOTPRINTS_BINS; b++)
-        if (footprints_bin_area(b) > 0.6 && footprints_bin_area(b) < 1.1)
-            about_one += bin[b].pixels;
-    assert_int_equal(about_one, 16 * 12);
+    const mesh_t *sampled = &mesh.mesh[STUDY_TRUTH_PICTURE];
+    footprints_bins(bin, sampled, &mesh.exact, &mesh.panel);
+    int filled = 0;
+    for (int b = 1; b < FOOTPRINTS_BINS - 1; b++) {
+        int64_t expected = 0;
+        for (int32_t c = 0; c < 24 * 28; c++) {
+            const double area = footprints_area(&mesh.exact, c % 24, c / 24);
+            expected +=
+                sampled->cell[c].count > 0 && area >= footprints_bin_area(b) && area < footprints_bin_area(b + 1);
+        }
+        assert_int_equal(bin[b].pixels, expected);
+        filled += expected > 0;
+    }
+    assert_true(filled > 3);
     assert_true(fabs(footprints_bin_area(12) - 1.0) < 1e-12);
     study_mesh_close(&mesh);
+}
+
+static void a_sum_is_from_one_area_on_and_below_another(void **state)
+{
+    (void)state;
+    footprints_bin_t bin[FOOTPRINTS_BINS];
+    for (int b = 0; b < FOOTPRINTS_BINS; b++)
+        bin[b] = (footprints_bin_t){INT64_C(1) << b, INT64_C(2) << b, ldexp(4.0, b)};
+    const footprints_bin_t sum = footprints_bins_sum(bin, footprints_bin_area(12), footprints_bin_area(15));
+    assert_int_equal(sum.pixels, 7 << 12);
+    assert_int_equal(sum.samples, 14 << 12);
+    assert_true(sum.error == 28 << 12);
+    assert_int_equal(footprints_bins_sum(bin, 0.0, HUGE_VAL).pixels, (1 << FOOTPRINTS_BINS) - 1);
 }
 
 int main(void)
@@ -104,6 +125,7 @@ int main(void)
         cmocka_unit_test(bins_hold_the_whole_error),
         cmocka_unit_test(areas_are_what_samples_measure),
         cmocka_unit_test(a_pixel_falls_in_the_bin_of_its_area),
+        cmocka_unit_test(a_sum_is_from_one_area_on_and_below_another),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,6 +28,14 @@ static void reversed_order_is_not(void **state)
     assert_true(percent((const double[]){3, 1, 2}, (const double[]){1, 3, 2}, 3, 0.0) == 0.0);
 }
 
+static void order_that_is_lost_is_not_kept(void **state)
+{
+    (void)state;
+    assert_true(percent((const double[]){3, 1}, (const double[]){1, 1}, 2, 0.1) == 0.0);
+    assert_true(percent((const double[]){3, 1}, (const double[]){1, 1.05}, 2, 0.1) == 0.0);
+    assert_true(percent((const double[]){3, 1}, (const double[]){1.05, 1}, 2, 0.1) == 100.0);
+}
+
 static void each_pair_counts_once(void **state)
 {
     (void)state;
@@ -53,8 +61,11 @@ static void rows_add_up(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(same_order_is_kept),    cmocka_unit_test(reversed_order_is_not),
-        cmocka_unit_test(each_pair_counts_once), cmocka_unit_test(small_differences_are_no_pairs),
+        cmocka_unit_test(same_order_is_kept),
+        cmocka_unit_test(reversed_order_is_not),
+        cmocka_unit_test(each_pair_counts_once),
+        cmocka_unit_test(small_differences_are_no_pairs),
+        cmocka_unit_test(order_that_is_lost_is_not_kept),
         cmocka_unit_test(rows_add_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

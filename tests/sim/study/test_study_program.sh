@@ -3,6 +3,7 @@
 # wallwarp-eval study --quick, once: its files, its figures, and every bad command line.
 # Usage, from the tree's root: tests/sim/study/test_study_program.sh BUILD_FOLDER
 # shellcheck disable=SC2086 # $study is two words, on purpose
+# shellcheck disable=SC2016 # the conditions of awk are not for the shell
 set -u
 build=${1:?usage: test_study_program.sh BUILD_FOLDER}
 # shellcheck source=tests/sim/run/programs.sh
@@ -65,6 +66,50 @@ test_figures_8_and_9() {
     within "$(value fig08.csv 5mm_0.5deg_seen_worst 60)" 0.05 2 "noise is seen, and stays small"
 }
 
+# holds FILE WHAT AWK: a condition of every row but the first, and there are rows.
+holds() {
+    awk -F, "NR > 1 { rows++; if (!($3)) { print; bad = 1 } } END { exit bad || !rows }" "$out/$1"
+    check "$1: $2" $?
+}
+
+# The closed form of k, against its neighbours one by one.
+test_figure_5() {
+    holds fig05_k.csv "k is never below the measured one, and at most 0.9 % above" \
+        '$3 > $2 - 0.0001 && $3 < 1.009 * $2 + 0.0001 && $4 >= $3'
+}
+
+test_gap() {
+    holds gap_claims.csv "what must hold does in every case" '$3 > 0 && $4 == $3 && $5 >= $6'
+    for truth in picture original; do
+        holds gap_table_$truth.csv "the worst is no better than the mean, and nothing beats the limit" \
+            '$2 > 0 && $3 >= $2 && $4 > 0 && $5 >= $4 && $6 > 0 && $7 >= $6'
+    done
+}
+
+# What a user needs to know, against the curves that it is taken from.
+test_late_poses() {
+    awk -F, '
+        NR == FNR && FNR == 1 { for (c = 2; c <= 7; c++) name[c] = $c }
+        NR == FNR && $1 == 10 { for (c = 2; c <= 7; c++) at_10[name[c]] = $c }
+        NR == FNR && $1 == 50 { for (c = 2; c <= 7; c++) at_50[name[c]] = $c }
+        NR != FNR && FNR > 1 {
+            rows++
+            px = at_10[$1] * $7 / 10 # of the latency for 1 px, printed to 0.1 ms
+            if (at_50[$1] - $2 > 0.006 || $2 - at_50[$1] > 0.006 || $8 > $7) bad = 1
+            if ($7 >= 1 && (px < 0.95 || px > 1.05)) bad = 1
+        }
+        END { exit bad || rows != 6 }' "$out/latency_late.csv" "$out/latency_needs.csv"
+    check "the table of what a tracker must deliver is that of the curves" $?
+}
+
+test_uneven_light() {
+    holds intensity_order.csv "the paper's own pixels keep their order, and no order is kept by more than all" \
+        '($1 != "ideal" || $3 == 100 && $4 == 100) && $3 <= 100 && $4 <= 100'
+    models=$(awk -F, 'NR > 2 && $3 >= 95 { n++ } END { print n + 0 }' "$out/intensity_order.csv")
+    grep -q "It holds with $models of the 5 other models" "$out/index.html"
+    check "the claim counts the table's models: $models" $?
+}
+
 test_bad_command_lines() {
     refuses 2 "--out is missing" $study
     refuses 2 "no such experiment, expected one of fig 5," $study --out "$scratch/x" --only "fig 4"
@@ -80,7 +125,11 @@ test_bad_command_lines() {
 }
 
 test_quick_study
+test_figure_5
 test_figures_8_and_9
+test_gap
+test_late_poses
+test_uneven_light
 test_bad_command_lines
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]
