@@ -224,16 +224,14 @@ static void claim_product(study_t *study, const figures_t *figures)
 
 static void report(study_t *study, const figures_t *figures)
 {
-    char settings[768];
-    snprintf(
-        settings, sizeof settings,
+    study_section(
+        study, "Figures 8 and 9: a rectangle stays a rectangle",
         "A white rectangle on black, 28 %% of the picture's width and height in its middle; picture, projector and "
         "view %d x %d, %d x %d looks per pixel of the view; wall 4 m x 2.25 m, viewer 2.5 m from its centre and "
         "looking at it, turned about its vertical axis in steps of %d degrees; method %s. Noise: normal, standard "
         "deviation along and about each of three axes; %d seeds.",
         figures->view.width, figures->view.height, figures->view.samples, figures->view.samples, figures->step_deg,
         warp_method_default()->name, figures->seeds);
-    study_section(study, "Figures 8 and 9: a rectangle stays a rectangle", settings);
     study_text(study,
                "As the paper's camera did, the view is searched for the bright region, a line is laid through each of "
                "its four sides, and their corners are measured: how far the angles are from 90 degrees (mean of "

@@ -80,9 +80,7 @@ void study_fig10(study_t *study)
     study_mesh_sweep_t sweep;
     if (!study_mesh_sweep(&sweep, study, place, PLACES, study_quick(study) ? 10.0 : 2.5))
         return;
-    char settings[STUDY_MESH_SETTINGS_LENGTH];
-    study_mesh_settings(settings, &sweep);
-    study_section(study, "Figure 10: picture as fine as the projector", settings);
+    study_mesh_section(study, "Figure 10: picture as fine as the projector", &sweep);
     study_curves_by_filter(study, "fig10", &sweep);
     const study_mesh_sweep_t photographs = study_mesh_places(&sweep, 0, PHOTOGRAPHS);
     const study_mesh_sweep_t noise = study_mesh_places(&sweep, PHOTOGRAPHS, 1);

@@ -71,9 +71,7 @@ void study_fig11(study_t *study)
     study_mesh_sweep_t sweep;
     if (!study_mesh_sweep(&sweep, study, place, PLACES, study_quick(study) ? 10.0 : 5.0))
         return;
-    char settings[STUDY_MESH_SETTINGS_LENGTH];
-    study_mesh_settings(settings, &sweep);
-    study_section(study, "Figure 11: picture coarser than the projector", settings);
+    study_mesh_section(study, "Figure 11: picture coarser than the projector", &sweep);
     study_curves_by_filter(study, "fig11", &sweep);
     say(study, &sweep);
     free(sweep.run);

@@ -166,18 +166,16 @@ static void draw(const experiment_t *experiment, int32_t plot)
 
 static void begin_section(const experiment_t *experiment)
 {
-    char settings[800];
-    snprintf(settings, sizeof settings,
-             "A viewer walks past the wall at %.1f m/s, bobbing %.0f mm at %.1f Hz, %d frames at %.0f Hz around the "
-             "pose at 20 or 50 degrees, the head not turning. Sizes of picture and projector%s: equal 480x270 and "
-             "480x270, smaller 240x135 and 960x540, larger 480x270 and 240x135; the eye takes 6x6, 12x12, 4x4 looks "
-             "in each picture pixel. Pictures: studio%s. Pixels within %.0f of the edge of the wall or the picture are "
-             "left out.",
-             study_walk_speed_m_s, study_walk_bob_m * 1e3, study_walk_bob_hz, experiment->frames, flicker_watch_hz,
-             study_quick(experiment->study) ? ", halved here" : "",
-             experiment->photographs > 1 ? ", astronaut, coffee; a plot shows their mean" : "",
-             flicker_watch_margin_px);
-    study_section(experiment->study, "A moving viewer: flicker and sharpness", settings);
+    study_section(
+        experiment->study, "A moving viewer: flicker and sharpness",
+        "A viewer walks past the wall at %.1f m/s, bobbing %.0f mm at %.1f Hz, %d frames at %.0f Hz around the "
+        "pose at 20 or 50 degrees, the head not turning. Sizes of picture and projector%s: equal 480x270 and "
+        "480x270, smaller 240x135 and 960x540, larger 480x270 and 240x135; the eye takes 6x6, 12x12, 4x4 looks "
+        "in each picture pixel. Pictures: studio%s. Pixels within %.0f of the edge of the wall or the picture are "
+        "left out.",
+        study_walk_speed_m_s, study_walk_bob_m * 1e3, study_walk_bob_hz, experiment->frames, flicker_watch_hz,
+        study_quick(experiment->study) ? ", halved here" : "",
+        experiment->photographs > 1 ? ", astronaut, coffee; a plot shows their mean" : "", flicker_watch_margin_px);
     study_text(experiment->study,
                "The picture is the same in every frame, so the eye should see no change: what changes is the wall's "
                "sampling grid, which slides under the picture as the viewer walks. Flicker is the mean absolute change "

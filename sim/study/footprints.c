@@ -9,7 +9,7 @@
 #include "sim/study/study_mesh_curves.h"
 #include "sim/study/study_methods.h"
 
-enum { NAME_LENGTH = 64, CAPTION_LENGTH = 128, SETTINGS_LENGTH = 512, COLUMNS_BEFORE = 2 };
+enum { NAME_LENGTH = 64, CAPTION_LENGTH = 128, COLUMNS_BEFORE = 2 };
 
 static const double angle_deg = 60.0;
 /* Square picture pixels: magnified below the one; from the other on two pixels along an axis, on average. */
@@ -158,15 +158,14 @@ static void say(study_t *study, const footprints_case_t one[STUDY_TRUTHS])
 
 static void show_settings(study_t *study, const footprints_case_t one[STUDY_TRUTHS])
 {
-    char settings[SETTINGS_LENGTH];
     const study_sizes_t *first = &one[0].at.sizes, *second = &one[1].at.sizes;
-    snprintf(settings, sizeof settings,
-             "studio, viewer at %g degrees. Truth picture: %d x %d on %d x %d, S = %d. Truth original: %d x %d on %d x "
-             "%d, S = %d, original %d times as fine. Footprint area: |det J| at the projector pixel's centre.",
-             angle_deg, first->picture_width, first->picture_height, first->panel_width, first->panel_height,
-             one[0].at.factor, second->picture_width, second->picture_height, second->panel_width, second->panel_height,
-             one[1].at.factor, one[1].at.finer);
-    study_section(study, "Where the gap comes from", settings);
+    study_section(
+        study, "Where the gap comes from",
+        "studio, viewer at %g degrees. Truth picture: %d x %d on %d x %d, S = %d. Truth original: %d x %d on %d x "
+        "%d, S = %d, original %d times as fine. Footprint area: |det J| at the projector pixel's centre.",
+        angle_deg, first->picture_width, first->picture_height, first->panel_width, first->panel_height,
+        one[0].at.factor, second->picture_width, second->picture_height, second->panel_width, second->panel_height,
+        one[1].at.factor, one[1].at.finer);
     study_text(study,
                "Within a projector pixel nothing but its one value can be chosen. What a method gets wrong there "
                "is counted by the pixel's footprint in the picture: below 1 the picture is magnified, in the near "

@@ -254,9 +254,7 @@ void study_gap(study_t *study)
     study_mesh_sweep_t sweep;
     if (!study_mesh_sweep(&sweep, study, place, ROOMS * places, study_quick(study) ? 17.5 : 5.0))
         return;
-    char settings[STUDY_MESH_SETTINGS_LENGTH];
-    study_mesh_settings(settings, &sweep);
-    study_section(study, "Gap to the limit, under two truths", settings);
+    study_mesh_section(study, "Gap to the limit, under two truths", &sweep);
     study_text(study,
                "The limit is the mean of the truth within each projector pixel, which no method can beat. It is "
                "not a method: it needs the truth. In room low the original is as fine as the projector, so its limit "

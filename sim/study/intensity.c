@@ -178,17 +178,16 @@ static void write_effects(const experiment_t *experiment)
 
 static void begin_section(const experiment_t *experiment)
 {
-    char settings[TEXT_LENGTH];
     const camera_t *camera = &experiment->scene.camera;
-    snprintf(settings, sizeof settings,
-             "Picture and projector %dx%d, %dx%d samples in each picture pixel; viewer at 2.5 m, %g to %g degrees; "
-             "studio%s. Pixels, along each side: dark gap, lit on 85 %% of the pitch; bright middle, a raised cosine "
-             "over the whole pitch; both, half that cosine on 85 %%. Shining wall: light 0.4 + 1.6 cos^%g of the angle "
-             "between the eye and the mirrored ray of a projector %g m before the wall and %g m above its centre.",
-             camera->width, camera->height, INTENSITY_FACTOR, INTENSITY_FACTOR, angle_deg[0], angle_deg[MAX_ANGLES - 1],
-             experiment->photographs > 1 ? ", astronaut and coffee, means over the three" : "", intensity_exponent,
-             -intensity_projector_m[2], -intensity_projector_m[1]);
-    study_section(experiment->study, "Beyond the paper: uneven pixels and a shining wall", settings);
+    study_section(
+        experiment->study, "Beyond the paper: uneven pixels and a shining wall",
+        "Picture and projector %dx%d, %dx%d samples in each picture pixel; viewer at 2.5 m, %g to %g degrees; "
+        "studio%s. Pixels, along each side: dark gap, lit on 85 %% of the pitch; bright middle, a raised cosine "
+        "over the whole pitch; both, half that cosine on 85 %%. Shining wall: light 0.4 + 1.6 cos^%g of the angle "
+        "between the eye and the mirrored ray of a projector %g m before the wall and %g m above its centre.",
+        camera->width, camera->height, INTENSITY_FACTOR, INTENSITY_FACTOR, angle_deg[0], angle_deg[MAX_ANGLES - 1],
+        experiment->photographs > 1 ? ", astronaut and coffee, means over the three" : "", intensity_exponent,
+        -intensity_projector_m[2], -intensity_projector_m[1]);
     study_text(
         experiment->study,
         "The paper draws each projector pixel as an even square on a matt wall, and says that its model can be "

@@ -54,9 +54,7 @@ void study_larger(study_t *study)
     study_mesh_sweep_t sweep;
     if (!study_mesh_sweep(&sweep, study, place, PLACES, study_quick(study) ? 10.0 : 5.0))
         return;
-    char settings[STUDY_MESH_SETTINGS_LENGTH];
-    study_mesh_settings(settings, &sweep);
-    study_section(study, "Picture finer than the projector", settings);
+    study_mesh_section(study, "Picture finer than the projector", &sweep);
     study_curves_by_filter(study, "larger", &sweep);
     say(study, &sweep);
     free(sweep.run);

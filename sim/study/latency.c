@@ -223,9 +223,8 @@ static void draw_all(study_t *study)
 
 static void begin_section(const experiment_t *experiment)
 {
-    char settings[TEXT_LENGTH];
-    snprintf(
-        settings, sizeof settings,
+    study_section(
+        experiment->study, "A moving viewer: late and noisy poses",
         "A viewer 2.5 m before the wall; walking is %.1f m/s along it with a bob of %.0f mm at %.1f Hz, turning is "
         "%.0f degrees times sin(2 pi %.1f t); one swing of the head, %.2f s. Errors are means over the view and "
         "the swing, in pixels of a 1920x1080 picture, of which one is about %.3f degrees, for content %.1f m "
@@ -234,7 +233,6 @@ static void begin_section(const experiment_t *experiment)
         study_walk_speed_m_s, study_walk_bob_m * 1e3, study_walk_bob_hz, latency_yaw_deg, study_walk_yaw_hz,
         1.0 / study_walk_yaw_hz, 180.0 / M_PI * 1e6 / (double)experiment->scene.camera.focal_upx[0], content_m[BEHIND],
         experiment->picture.width, experiment->picture.height);
-    study_section(experiment->study, "A moving viewer: late and noisy poses", settings);
     study_text(experiment->study,
                "Three poses meet in a frame: the one that the engine drew the picture for, the one that the wall is "
                "corrected for, and the true one when the light arrives. Wall late: the picture is drawn for the true "

@@ -67,11 +67,8 @@ typedef struct {
  */
 void study_plot(study_t *study, const study_plot_t *plot);
 
-/** @return A path in the study's folder, for pictures: the caller's buffer, or NULL when it is too long (a failure). */
-const char *study_path(study_t *study, const char *name, char path[FILE_ERROR_LENGTH]);
-
-/** Begin a section of the page. @param settings  Everything needed to do it again: sizes, poses, pictures, seeds. */
-void study_section(study_t *study, const char *title, const char *settings);
+/** Begin a section of the page. @param format  Everything needed to do it again: sizes, poses, pictures, seeds. */
+void study_section(study_t *study, const char *title, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /** A paragraph of plain text (escaped here). */
 void study_text(study_t *study, const char *format, ...) __attribute__((format(printf, 2, 3)));

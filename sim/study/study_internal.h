@@ -27,6 +27,9 @@ struct study {
     char error[FILE_ERROR_LENGTH]; /**< written under lock */
 };
 
+/** @return A path in the study's folder: the caller's buffer, or NULL when it is too long (a failure). */
+const char *study_path(study_t *study, const char *name, char path[FILE_ERROR_LENGTH]);
+
 /** Open the page's buffers. A failure is the study's. */
 void study_page_open(study_t *study);
 

@@ -10,6 +10,8 @@
 #include "sim/files/gray_image.h"
 #include "sim/study/study_methods.h"
 
+enum { SETTINGS_LENGTH = 3072 };
+
 static bool fail(char error[FILE_ERROR_LENGTH], const study_mesh_case_t *at, const char *what)
 {
     snprintf(error, FILE_ERROR_LENGTH, "%s, %d x %d, finer %d, at %g degrees: %.160s", study_image_name(at->image),
@@ -139,23 +141,21 @@ study_mesh_sweep_t study_mesh_places(const study_mesh_sweep_t *sweep, int32_t fi
     return part;
 }
 
-void study_mesh_settings(char text[STUDY_MESH_SETTINGS_LENGTH], const study_mesh_sweep_t *sweep)
+void study_mesh_section(study_t *study, const char *title, const study_mesh_sweep_t *sweep)
 {
+    char text[SETTINGS_LENGTH] = "";
     size_t used = 0;
-    for (int32_t p = 0; p < sweep->places && used < STUDY_MESH_SETTINGS_LENGTH; p++) {
+    for (int32_t p = 0; p < sweep->places && used < sizeof text; p++) {
         const study_mesh_case_t *at = &sweep->run[p * sweep->angles].at;
         const study_sizes_t *sizes = &at->sizes;
         char original[64] = "";
         if (at->finer > 1)
             snprintf(original, sizeof original, ", original of %d x %d", sizes->picture_width * at->finer,
                      sizes->picture_height * at->finer);
-        used += (size_t)snprintf(text + used, STUDY_MESH_SETTINGS_LENGTH - used,
-                                 "%s %d x %d%s on a projector of %d x %d, S = %d; ", study_image_name(at->image),
-                                 sizes->picture_width, sizes->picture_height, original, sizes->panel_width,
-                                 sizes->panel_height, at->factor);
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s %d x %d%s on a projector of %d x %d, S = %d; ",
+                                 study_image_name(at->image), sizes->picture_width, sizes->picture_height, original,
+                                 sizes->panel_width, sizes->panel_height, at->factor);
     }
-    if (used < STUDY_MESH_SETTINGS_LENGTH)
-        snprintf(text + used, STUDY_MESH_SETTINGS_LENGTH - used,
-                 "viewer at 0 to %g degrees in steps of %g; k over pixels in the picture.",
-                 sweep->step_deg * (sweep->angles - 1), sweep->step_deg);
+    study_section(study, title, "%sviewer at 0 to %g degrees in steps of %g; k over pixels in the picture.", text,
+                  sweep->step_deg * (sweep->angles - 1), sweep->step_deg);
 }

@@ -89,9 +89,7 @@ bool study_mesh_sweep(study_mesh_sweep_t *sweep, study_t *study, const study_mes
 /** @return Some of a sweep's places, as a sweep whose memory is the other's. */
 study_mesh_sweep_t study_mesh_places(const study_mesh_sweep_t *sweep, int32_t first, int32_t places);
 
-enum { STUDY_MESH_SETTINGS_LENGTH = 4096 };
-
-/** Write what a sweep was measured with: pictures, sizes, S, q, angles, k. */
-void study_mesh_settings(char text[STUDY_MESH_SETTINGS_LENGTH], const study_mesh_sweep_t *sweep);
+/** Begin a section of the page: its settings are what the sweep was measured with. */
+void study_mesh_section(study_t *study, const char *title, const study_mesh_sweep_t *sweep);
 
 #endif

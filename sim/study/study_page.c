@@ -80,10 +80,15 @@ static void end_section(study_t *study)
         fputs("</section>\n", study->sections.file);
 }
 
-void study_section(study_t *study, const char *title, const char *settings)
+void study_section(study_t *study, const char *title, const char *format, ...)
 {
     if (study_failed(study))
         return;
+    char settings[TEXT_LENGTH];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(settings, sizeof settings, format, arguments);
+    va_end(arguments);
     end_section(study);
     const int number = ++study->section_count;
     fprintf(study->sections.file, "<section id=\"s%d\">\n", number);

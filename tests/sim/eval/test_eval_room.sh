@@ -3,26 +3,16 @@
 # wallwarp-eval over a whole room: psnr of every wall and of the view, colour channels, advise.
 # Usage, from the tree's root: tests/sim/eval/test_eval_room.sh BUILD_FOLDER
 set -u
-eval_program=${1:?usage: test_eval_room.sh BUILD_FOLDER}/wallwarp-eval
-scratch=$(mktemp -d "${TMPDIR:-/tmp}/wallwarp-room.XXXXXX") || exit 1
-trap 'rm -rf "$scratch"' EXIT
+build=${1:?usage: test_eval_room.sh BUILD_FOLDER}
+eval_program=$build/wallwarp-eval
+# shellcheck source=tests/sim/run/programs.sh
+. tests/sim/run/programs.sh
 one=tests/oracle/room_480x270_eq.yaml
 one_pose='1250 0 -2165.063509 0.965925826 0 -0.258819045 0'
 gray=tests/images/studio_480x270.png
 demo=sim/demo/room.yaml
 corner='0 -1700 600 0.933012702 -0.25 0.25 0.066987298' # sees front, right and floor
 colour=sim/demo/studio_960x540.png
-passed=0 failed=0
-
-# check NAME STATUS: count a result; STATUS 0 is good.
-check() {
-    if [ "$2" -eq 0 ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAIL $1"
-    fi
-}
 
 # run ARGUMENTS...: results in $scratch/out, errors in $scratch/err.
 run() {

@@ -17,7 +17,7 @@ static void say_everything(study_t *study)
     FILE *csv = study_csv_begin(study, "table.csv", "name<1>,value");
     fputs("a&b,1\n\"c\",2\n", csv);
     study_csv_end(study, csv);
-    study_section(study, "First <section>", "seed \"7\" & size");
+    study_section(study, "First <section>", "seed \"%d\" & size", 7);
     study_text(study, "%d < %d", 3, 4);
     study_figure(study, "a.svg", "a.csv", "One \"figure\"");
     study_figure(study, "b.svg", NULL, "Another");
