@@ -29,7 +29,7 @@ static void say_prefilter(study_t *study, const study_mesh_sweep_t *photographs,
                         &(study_contest_claim_t){"paper, anti-aliasing",
                                                  "At strong angles a low-pass filter before resampling helps.", duel,
                                                  sizeof duel / sizeof duel[0]},
-                        photographs->run, photographs->count);
+                        photographs);
     const study_tally_t nearest = study_tally(&duel[0].contest, noise->run, noise->count);
     const study_tally_t cubic = study_tally(&duel[2].contest, noise->run, noise->count);
     study_text(study,
@@ -48,7 +48,7 @@ static void say(study_t *study, const study_mesh_sweep_t *photographs)
                             "paper, fig 10",
                             "Least-squares splines give the best results when picture and projector are equally fine.",
                             &splines, 1},
-                        photographs->run, photographs->count);
+                        photographs);
     const study_tally_t tally = study_tally(&splines.contest, photographs->run, photographs->count);
     study_headline(study,
                    "The paper's winner, the least-squares spline, is as good as the best filtered method in %d of %d "
@@ -65,7 +65,7 @@ static void say(study_t *study, const study_mesh_sweep_t *photographs)
                         &(study_contest_claim_t){"wallwarp",
                                                  "area beats every method of the paper in the paper's own evaluation.",
                                                  &area, 1},
-                        photographs->run, photographs->count);
+                        photographs);
 }
 
 void study_fig10(study_t *study)

@@ -48,7 +48,7 @@ static void say(study_t *study, const study_mesh_sweep_t *sweep)
         &(study_contest_claim_t){"paper, fig 11",
                                  "Nearest is best for all filters when the picture is coarser than the projector.",
                                  nearest, sizeof nearest / sizeof nearest[0]},
-        sweep->run, sweep->count);
+        sweep);
     const study_duel_t area = {
         "area against the best method of the paper",
         {.contenders = study_methods("area"), .others = study_methods_paper(), .tolerance_db = tolerance_db}};
@@ -57,7 +57,7 @@ static void say(study_t *study, const study_mesh_sweep_t *sweep)
                                                  "area beats nearest, and every other method of the paper, when the "
                                                  "picture is coarser than the projector.",
                                                  &area, 1},
-                        sweep->run, sweep->count);
+                        sweep);
 }
 
 void study_fig11(study_t *study)

@@ -7,6 +7,7 @@
 #include "sim/study/flicker_watch.h"
 #include "sim/study/study_experiments.h"
 #include "sim/study/study_methods.h"
+#include "sim/study/study_image.h"
 
 enum { SIZES = 3, ANGLES = 2, PHOTOGRAPHS = 3, PLOTS = SIZES * ANGLES, NAME_LENGTH = 40 };
 

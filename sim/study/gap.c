@@ -167,8 +167,7 @@ static void show_contests(study_t *study, const study_mesh_sweep_t *sweep)
     if (csv == NULL)
         return;
     for (int c = 0; c < GAP_CONTESTS; c++) {
-        study_contest_claim(study, &(study_contest_claim_t){"wallwarp", contest[c].claim, &contest[c].duel, 1},
-                            sweep->run, sweep->count);
+        study_contest_claim(study, &(study_contest_claim_t){"wallwarp", contest[c].claim, &contest[c].duel, 1}, sweep);
         for (int r = 0; r < ROOMS; r++) {
             const study_mesh_sweep_t room = of_room(sweep, r);
             const study_tally_t tally = study_tally(&contest[c].duel.contest, room.run, room.count);

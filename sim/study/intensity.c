@@ -8,6 +8,7 @@
 #include "sim/study/intensity_see.h"
 #include "sim/study/study_experiments.h"
 #include "sim/study/study_methods.h"
+#include "sim/study/study_image.h"
 
 enum { MAX_ANGLES = 5, PHOTOGRAPHS = 3, TEXT_LENGTH = 900 };
 

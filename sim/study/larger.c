@@ -40,7 +40,7 @@ static void say(study_t *study, const study_mesh_sweep_t *sweep)
                                  "All interpolation schemes show fair results when the picture is finer than the "
                                  "projector (here: within 1 dB of the best filtered method).",
                                  duel, sizeof duel / sizeof duel[0]},
-        sweep->run, sweep->count);
+        sweep);
 }
 
 void study_larger(study_t *study)

@@ -9,6 +9,7 @@
 #include "sim/study/latency_tracks.h"
 #include "sim/study/latency_view.h"
 #include "sim/study/study_experiments.h"
+#include "sim/study/study_image.h"
 
 enum { STEPS = 11, NOISES = 2, TEXT_LENGTH = 1000 };
 

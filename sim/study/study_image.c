@@ -6,7 +6,7 @@
 #include "sim/files/gray_image.h"
 #include "sim/files/pixel.h"
 #include "sim/rng.h"
-#include "sim/study/study_scene.h"
+#include "sim/study/study_image.h"
 
 /* sim/study/study_files.S */
 extern const uint8_t study_studio[], study_studio_end[], study_astronaut[], study_astronaut_end[], study_coffee[],

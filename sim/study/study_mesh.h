@@ -9,6 +9,7 @@
 #include "sim/eval/mesh_psnr.h"
 #include "sim/files/file_io.h"
 #include "sim/study/study.h"
+#include "sim/study/study_image.h"
 #include "sim/study/study_scene.h"
 #include "warp_fixed/method.h"
 #include "warp_fixed/warp.h"

@@ -80,13 +80,14 @@ static void say_tally(char text[SENTENCE_LENGTH], const study_duel_t *duel, cons
              worst->sizes.panel_width, worst->sizes.panel_height, worst->angle_deg);
 }
 
-void study_contest_claim(study_t *study, const study_contest_claim_t *claim, const study_mesh_run_t *run, int32_t runs)
+void study_contest_claim(study_t *study, const study_contest_claim_t *claim, const study_mesh_sweep_t *sweep)
 {
     char text[MAX_SENTENCES * SENTENCE_LENGTH] = "";
     for (int d = 0; d < claim->duels && d < MAX_SENTENCES; d++)
-        say_tally(text + strlen(text), &claim->duel[d], run, runs);
+        say_tally(text + strlen(text), &claim->duel[d], sweep->run, sweep->count);
     if (text[0] == '\0')
         study_text(study, "%s There is no case to judge it by.", claim->claim);
     else
-        study_claim(study, study_contest_verdict(claim, run, runs), claim->source, claim->claim, "%s", text);
+        study_claim(study, study_contest_verdict(claim, sweep->run, sweep->count), claim->source, claim->claim, "%s",
+                    text);
 }

@@ -53,6 +53,6 @@ study_verdict_t study_contest_verdict(const study_contest_claim_t *claim, const 
  * Put a claim on the page: its verdict and, of each contest, how many cases were won, mean and worst, and where the
  * worst is. Contests without a case are left out; without any there is no claim.
  */
-void study_contest_claim(study_t *study, const study_contest_claim_t *claim, const study_mesh_run_t *run, int32_t runs);
+void study_contest_claim(study_t *study, const study_contest_claim_t *claim, const study_mesh_sweep_t *sweep);
 
 #endif

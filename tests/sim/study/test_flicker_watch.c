@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "sim/study/flicker_watch.h"
+#include "sim/study/study_image.h"
 
 enum { WIDTH = 64, HEIGHT = 36, FRAMES = 5 };
 

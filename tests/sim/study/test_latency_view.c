@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 #include "sim/study/latency_view.h"
+#include "sim/study/study_image.h"
 
 enum { WIDTH = 160, HEIGHT = 90 };
 

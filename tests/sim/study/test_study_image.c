@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "sim/files/png_file.h"
-#include "sim/study/study_scene.h"
+#include "sim/study/study_image.h"
 
 static void equals_file(study_image_t image, const char *path)
 {

@@ -13,6 +13,7 @@
 #include "firmware/room.h"
 #include "sim/eval/double_homography.h"
 #include "sim/study/study_scene.h"
+#include "sim/study/study_image.h"
 
 static void scene_is_room(const char *path, const study_sizes_t *sizes)
 {
