@@ -207,7 +207,7 @@ static void claim(const experiment_t *experiment, const flicker_defeats_t *defea
 static void claims(const experiment_t *experiment)
 {
     const int32_t cases = PLOTS * experiment->photographs;
-    const flicker_defeats_t all = flicker_defeats_of_family(experiment->seen, cases);
+    const flicker_defeats_t all = flicker_defeats(experiment->seen, cases, NULL);
     study_headline(experiment->study,
                    "For a viewer who walks, a method from outside is both sharper and steadier than each of area, "
                    "mean+cubic and mean+spline in %d of %d comparisons.",
@@ -220,7 +220,7 @@ static void claims(const experiment_t *experiment)
         char text[120];
         snprintf(text, sizeof text, "No method outside the adaptive family is both sharper and steadier than %s.",
                  name);
-        const flicker_defeats_t one = flicker_defeats_of(experiment->seen, cases, name);
+        const flicker_defeats_t one = flicker_defeats(experiment->seen, cases, name);
         claim(experiment, &one, text);
     }
 }

@@ -18,7 +18,7 @@ bool flicker_beats(const flicker_point_t *a, const flicker_point_t *b)
     return a->sharpness > b->sharpness + flicker_least_sharper && a->flicker < b->flicker - flicker_least_steadier;
 }
 
-/* Is the member meant? NULL means all of the family. */
+/* NULL means all of the family. */
 static bool is_meant(const flicker_point_t *point, const char *member)
 {
     return member == NULL ? flicker_in_family(point->name) : strcmp(point->name, member) == 0;
@@ -41,7 +41,7 @@ static const flicker_point_t *steadiest(const flicker_case_t *of, const char *me
     return found;
 }
 
-static flicker_defeats_t defeats(const flicker_case_t *cases, int32_t count, const char *member)
+flicker_defeats_t flicker_defeats(const flicker_case_t *cases, int32_t count, const char *member)
 {
     flicker_defeats_t defeats = {0};
     for (int32_t c = 0; c < count; c++)
@@ -65,14 +65,4 @@ static flicker_defeats_t defeats(const flicker_case_t *cases, int32_t count, con
             defeats.victim = victim;
         }
     return defeats;
-}
-
-flicker_defeats_t flicker_defeats_of(const flicker_case_t *cases, int32_t count, const char *member)
-{
-    return defeats(cases, count, member);
-}
-
-flicker_defeats_t flicker_defeats_of_family(const flicker_case_t *cases, int32_t count)
-{
-    return defeats(cases, count, NULL);
 }

@@ -39,10 +39,11 @@ typedef struct {
     const flicker_point_t *victim; /**< in it */
 } flicker_defeats_t;
 
-/** @param member  Of the family. @return Who is both sharper and steadier than it; without pairs where it is not. */
-flicker_defeats_t flicker_defeats_of(const flicker_case_t *cases, int32_t count, const char *member);
-
-/** @return Who is both sharper and steadier than every member; the victim named is the steadiest of them. */
-flicker_defeats_t flicker_defeats_of_family(const flicker_case_t *cases, int32_t count);
+/**
+ * Who is both sharper and steadier than a member of the family, or with NULL than each of them.
+ *
+ * @return Without pairs where the member is not; of a defeated family the steadiest is the victim.
+ */
+flicker_defeats_t flicker_defeats(const flicker_case_t *cases, int32_t count, const char *member);
 
 #endif

@@ -188,9 +188,9 @@ static void show_contests(study_t *study, const study_mesh_sweep_t *sweep)
     study_table(study, "gap_claims.csv", "The figures that must hold, by room, with the worst case of each.");
 }
 
-static double area_gap_db(const study_mesh_result_t *found)
+static double gap_db(const study_mesh_result_t *found, const char *method)
 {
-    return found->limit_db[STUDY_TRUTH_PICTURE] - study_best_db(found, STUDY_TRUTH_PICTURE, study_methods("area"));
+    return found->limit_db[STUDY_TRUTH_PICTURE] - study_best_db(found, STUDY_TRUTH_PICTURE, study_methods(method));
 }
 
 /* The limit is of the samples that were taken: the fewer a projector pixel has, the more of their chance it knows. */
@@ -208,9 +208,8 @@ static void show_samples(study_t *study)
         return;
     for (int f = 0; f < FACTORS; f++) {
         const study_mesh_result_t *found = &run[f].found;
-        const double limit_db = found->limit_db[STUDY_TRUTH_PICTURE];
-        fprintf(csv, "%d,%.3f,%.3f,%.3f\n", factor[f], limit_db, area_gap_db(found),
-                limit_db - study_best_db(found, STUDY_TRUTH_PICTURE, study_methods("mean+cubic")));
+        fprintf(csv, "%d,%.3f,%.3f,%.3f\n", factor[f], found->limit_db[STUDY_TRUTH_PICTURE], gap_db(found, "area"),
+                gap_db(found, "mean+cubic"));
     }
     study_csv_end(study, csv);
     study_text(study,
@@ -218,7 +217,7 @@ static void show_samples(study_t *study)
                "projector pixel, 16 of them at S = 4 and 1:1: it knows the chance of where they fall, which no "
                "method can. So a small S flatters the limit, and most of area's gap is not its own: in the case below "
                "it is %.3f dB with S = %d and %.3f dB with S = %d. Small pictures have S = 16 above for this reason.",
-               area_gap_db(&run[0].found), factor[0], area_gap_db(&run[FACTORS - 1].found), factor[FACTORS - 1]);
+               gap_db(&run[0].found, "area"), factor[0], gap_db(&run[FACTORS - 1].found, "area"), factor[FACTORS - 1]);
     study_table(study, "gap_samples.csv",
                 "The same case with more samples, dB: coffee 120 x 68 on 120 x 68, 35 degrees, truth: the picture.");
 }

@@ -43,7 +43,7 @@ static void beating_needs_both(void **state)
 static void nobody_beats_an_ordinary_family(void **state)
 {
     (void)state;
-    const flicker_defeats_t defeats = flicker_defeats_of_family(&ordinary, 1);
+    const flicker_defeats_t defeats = flicker_defeats(&ordinary, 1, NULL);
     assert_int_equal(defeats.pairs, 2); /* the outsiders */
     assert_int_equal(defeats.defeats, 0);
     assert_null(defeats.worst);
@@ -54,8 +54,8 @@ static void beating_one_member_is_not_beating_the_family(void **state)
     (void)state;
     flicker_case_t of = ordinary;
     of.point[0] = (flicker_point_t){"none+cubic", 0.55, 1.5}; /* beats area, not mean+cubic: that is sharper */
-    const flicker_defeats_t family = flicker_defeats_of_family(&of, 1), area = flicker_defeats_of(&of, 1, "area");
-    const flicker_defeats_t cubic = flicker_defeats_of(&of, 1, "mean+cubic");
+    const flicker_defeats_t family = flicker_defeats(&of, 1, NULL), area = flicker_defeats(&of, 1, "area");
+    const flicker_defeats_t cubic = flicker_defeats(&of, 1, "mean+cubic");
     assert_int_equal(family.defeats, 0);
     assert_int_equal(area.defeats, 1);
     assert_int_equal(cubic.defeats, 0);
@@ -63,8 +63,8 @@ static void beating_one_member_is_not_beating_the_family(void **state)
     assert_string_equal(area.victor->name, "none+cubic");
     assert_string_equal(area.victim->name, "area");
     of.point[0] = (flicker_point_t){"none+cubic", 0.65, 2.2}; /* beats mean+cubic, not area: that is steadier */
-    assert_int_equal(flicker_defeats_of_family(&of, 1).defeats, 0);
-    assert_int_equal(flicker_defeats_of(&of, 1, "mean+cubic").defeats, 1);
+    assert_int_equal(flicker_defeats(&of, 1, NULL).defeats, 0);
+    assert_int_equal(flicker_defeats(&of, 1, "mean+cubic").defeats, 1);
 }
 
 static void worst_defeat_is_found_among_cases(void **state)
@@ -73,7 +73,7 @@ static void worst_defeat_is_found_among_cases(void **state)
     flicker_case_t of[3] = {ordinary, ordinary, ordinary};
     of[1].point[0] = (flicker_point_t){"none+cubic", 0.9, 1.8};
     of[2].point[3] = (flicker_point_t){"gauss+cubic", 0.9, 0.5};
-    const flicker_defeats_t defeats = flicker_defeats_of_family(of, 3);
+    const flicker_defeats_t defeats = flicker_defeats(of, 3, NULL);
     assert_int_equal(defeats.pairs, 6);
     assert_int_equal(defeats.defeats, 2);
     assert_ptr_equal(defeats.worst, &of[2]);
@@ -86,13 +86,13 @@ static void members_do_not_beat_each_other(void **state)
     (void)state;
     flicker_case_t of = ordinary;
     of.point[2] = (flicker_point_t){"mean+cubic", 0.9, 0.1};
-    assert_int_equal(flicker_defeats_of(&of, 1, "area").defeats, 0);
+    assert_int_equal(flicker_defeats(&of, 1, "area").defeats, 0);
 }
 
 static void missing_member_has_no_pairs(void **state)
 {
     (void)state;
-    assert_int_equal(flicker_defeats_of(&ordinary, 1, "mean+spline").pairs, 0);
+    assert_int_equal(flicker_defeats(&ordinary, 1, "mean+spline").pairs, 0);
 }
 
 typedef struct {
