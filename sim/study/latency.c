@@ -182,38 +182,28 @@ static void write_needs(const experiment_t *experiment)
     study_csv_end(experiment->study, csv);
 }
 
-static void draw(study_t *study, const char *svg, const char *x_label, const char *y_label, const study_line_t *line,
-                 int lines)
-{
-    const bool px = strcmp(y_label, "PSNR, dB") != 0;
-    study_plot(study, &(study_plot_t){.name = svg,
-                                      .x_label = x_label,
-                                      .y_label = y_label,
-                                      .setup = px ? "set logscale y\nset yrange [0.1:1000]\n" : NULL,
-                                      .height = lines > 2 ? 470 : 0, /* a long key */
-                                      .line = line,
-                                      .lines = lines});
-}
-
 static void draw_all(study_t *study)
 {
     const char *late = "latency_late.csv", *noise = "latency_noise.csv";
-    study_line_t line[LATENCY_TRACKS];
+    const char *pixels = "mean error, px", *logarithmic = "set logscale y\nset yrange [0.1:1000]\n";
+    enum { LONG_KEY_HEIGHT = 470 };
+    study_line_t tracks[LATENCY_TRACKS];
     for (int t = 0; t < LATENCY_TRACKS; t++)
-        line[t] = (study_line_t){late, 1, t + 2, latency_track_name((latency_track_t)t), t, false, false};
-    draw(study, "latency_late.svg", "latency, ms", "mean error, px", line, LATENCY_TRACKS);
-    draw(study, "latency_late_db.svg", "latency, ms", "PSNR, dB",
-         (const study_line_t[]){{late, 1, LATENCY_TRACKS + 2, "walking", 0, false, false},
-                                {late, 1, LATENCY_TRACKS + 3, "turning", 1, false, false}},
-         2);
-    draw(study, "latency_position.svg", "noise of position, mm", "mean error, px",
-         (const study_line_t[]){{noise, 1, 2, "of the wall's pose", 0, false, false},
-                                {noise, 1, 3, "of one pose for both", 2, false, false}},
-         2);
-    draw(study, "latency_orientation.svg", "noise of orientation, degrees", "mean error, px",
-         (const study_line_t[]){{noise, 5, 6, "of the wall's pose", 0, false, false},
-                                {noise, 5, 7, "of one pose for both", 2, false, false}},
-         2);
+        tracks[t] = (study_line_t){late, 1, t + 2, latency_track_name((latency_track_t)t), t, false, false};
+    const study_line_t view[] = {{late, 1, LATENCY_TRACKS + 2, "walking", 0, false, false},
+                                 {late, 1, LATENCY_TRACKS + 3, "turning", 1, false, false}};
+    const study_line_t position[] = {{noise, 1, 2, "of the wall's pose", 0, false, false},
+                                     {noise, 1, 3, "of one pose for both", 2, false, false}};
+    const study_line_t orientation[] = {{noise, 5, 6, "of the wall's pose", 0, false, false},
+                                        {noise, 5, 7, "of one pose for both", 2, false, false}};
+    const study_plot_t plots[] = {
+        {"latency_late.svg", NULL, "latency, ms", pixels, logarithmic, 0, LONG_KEY_HEIGHT, tracks, LATENCY_TRACKS},
+        {"latency_late_db.svg", NULL, "latency, ms", "PSNR, dB", NULL, 0, 0, view, 2},
+        {"latency_position.svg", NULL, "noise of position, mm", pixels, logarithmic, 0, 0, position, 2},
+        {"latency_orientation.svg", NULL, "noise of orientation, degrees", pixels, logarithmic, 0, 0, orientation, 2},
+    };
+    for (size_t p = 0; p < sizeof plots / sizeof *plots; p++)
+        study_plot(study, &plots[p]);
     study_figure(study, "latency_late.svg", late, "Error of the content's place, by who uses which pose");
     study_figure(study, "latency_late_db.svg", late, "What the eye sees, wall late, against the picture");
     study_figure(study, "latency_position.svg", noise,
