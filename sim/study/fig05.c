@@ -88,8 +88,6 @@ static void write_lines(study_t *study, const grids_t *grids)
     FILE *csv = study_csv_begin(study, "fig05.csv",
                                 "column,row,about_x_x,about_x_y,about_y_x,about_y_y,about_z_x,about_z_y,"
                                 "about_xyz_x,about_xyz_y");
-    if (csv == NULL)
-        return;
     for (int32_t j = LINE_EVERY / 2; j < HEIGHT; j += LINE_EVERY) {
         for (int32_t i = 0; i < WIDTH; i += POINT_EVERY)
             print_point(csv, grids, i, j);
@@ -106,8 +104,6 @@ static void write_lines(study_t *study, const grids_t *grids)
 static void write_steps(study_t *study, const grids_t *grids)
 {
     FILE *csv = study_csv_begin(study, "fig05_k.csv", "turn,k_measured,k_in,k_all");
-    if (csv == NULL)
-        return;
     for (int t = 0; t < TURNS; t++)
         fprintf(csv, "%s,%.4f,%.4f,%.4f\n", turns[t].name, grids->measured[t], grids->step[t].in_q16 / 65536.0,
                 grids->step[t].all_q16 / 65536.0);

@@ -107,8 +107,6 @@ static void write_csv(study_t *study, const figures_t *figures, const char *name
                                      noises[n].position_mm, noises[n].orientation_deg, seen == 0 ? "geometry" : "seen",
                                      noises[n].position_mm, noises[n].orientation_deg, seen == 0 ? "geometry" : "seen");
     FILE *csv = study_csv_begin(study, name, header);
-    if (csv == NULL)
-        return;
     for (int32_t a = 0; a < figures->angles; a++) {
         fprintf(csv, "%d", angle_of(figures, a));
         for (int which = 0; which < 2; which++)

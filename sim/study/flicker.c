@@ -114,8 +114,6 @@ static void write_points(const experiment_t *experiment)
 {
     FILE *csv =
         study_csv_begin(experiment->study, "flicker.csv", "sizes,angle_deg,picture,method,sharpness,flicker_levels");
-    if (csv == NULL)
-        return;
     for (int32_t c = 0; c < PLOTS * experiment->photographs; c++)
         for (int32_t m = 0; m < experiment->methods; m++) {
             const flicker_point_t *point = &experiment->seen[c].point[m];
@@ -131,8 +129,6 @@ static void write_points(const experiment_t *experiment)
 static void write_marks(study_t *study, const char *name, const flicker_case_t *mean)
 {
     FILE *csv = study_csv_begin(study, name, "method,sharpness,others_levels,family_levels");
-    if (csv == NULL)
-        return;
     for (int32_t m = 0; m < mean->points; m++) {
         const flicker_point_t *point = &mean->point[m];
         const bool family = flicker_in_family(point->name);

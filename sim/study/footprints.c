@@ -49,8 +49,6 @@ static double rms_of(const footprints_bin_t *bin)
 static void write_bins(study_t *study, const footprints_case_t *one, const char *name, bool shares)
 {
     FILE *csv = study_curves_begin(study, name, "area_px2,pixels_percent");
-    if (csv == NULL)
-        return;
     const double pixels = (double)footprints_bins_sum(one->bin[0], 0.0, HUGE_VAL).pixels;
     for (int b = 0; b < FOOTPRINTS_BINS; b++) {
         if (one->bin[0][b].pixels == 0)

@@ -83,8 +83,6 @@ static void write_all(const experiment_t *experiment)
     FILE *csv = study_csv_begin(experiment->study, "intensity.csv",
                                 "model,angle_deg,picture,method,eye_db,fine_db,uneven_db,mean_gain");
     const int32_t places = experiment->angles * experiment->photographs;
-    if (csv == NULL)
-        return;
     for (int32_t n = 0; n < INTENSITY_MODELS * places; n++) {
         const int32_t model = n / places, place = n % places;
         const intensity_seen_t *seen = &experiment->seen[place][model];
@@ -108,8 +106,6 @@ static void draw(const experiment_t *experiment, const char *csv_name, const cha
         line[model] = (study_line_t){csv_name, 1, model + 2, intensity_models[model].name, model, false, false};
     }
     FILE *csv = study_csv_begin(experiment->study, csv_name, header);
-    if (csv == NULL)
-        return;
     for (int32_t a = 0; a < experiment->angles; a++) {
         fprintf(csv, "%g", angle_deg[a * experiment->angle_step]);
         for (int32_t model = 0; model < INTENSITY_MODELS; model++)
@@ -165,8 +161,6 @@ static void write_effects(const experiment_t *experiment)
                                 "model,mean gain,same order %,the same sample by sample,best method,"
                                 "best of the family,below it dB,mean+cubic below it dB,"
                                 "mean+cubic over the limit dB");
-    if (csv == NULL)
-        return;
     for (int32_t model = 0; model < INTENSITY_MODELS; model++) {
         const effect_t effect = effect_of(experiment, model);
         fprintf(csv, "%s,%.3f,%.1f,%.1f,%s,%s,%.2f,%.2f,%.2f\n", intensity_models[model].name, effect.gain,

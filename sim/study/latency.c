@@ -99,8 +99,6 @@ static void write_late(const experiment_t *experiment)
 {
     FILE *csv = study_csv_begin(experiment->study, "latency.csv",
                                 "poses,content,latency_ms,mean_px,worst_px,mean_deg,worst_deg");
-    if (csv == NULL)
-        return;
     for (int t = 0; t < LATENCY_TRACKS; t++)
         for (int c = 0; c < CONTENTS; c++)
             for (int32_t step = 0; step < STEPS; step++) {
@@ -123,8 +121,6 @@ static void write_curves(const experiment_t *experiment)
     }
     strcat(header, ",walking dB,turning dB");
     FILE *csv = study_csv_begin(study, "latency_late.csv", header);
-    if (csv == NULL)
-        return;
     for (int32_t step = 0; step < STEPS; step++) {
         fprintf(csv, "%g", part_of(step, worst_latency_s) * 1e3);
         for (int t = 0; t < LATENCY_TRACKS; t++)
@@ -135,8 +131,6 @@ static void write_curves(const experiment_t *experiment)
     csv = study_csv_begin(study, "latency_noise.csv",
                           "position_mm,wall px,wall and picture px,wall dB,"
                           "orientation_deg,wall px,wall and picture px,wall dB");
-    if (csv == NULL)
-        return;
     for (int32_t step = 0; step < STEPS; step++)
         fprintf(csv, "%g,%.4f,%.4f,%.3f,%g,%.4f,%.4f,%.3f\n", part_of(step, worst_noise_mm),
                 latency_mean_px(&experiment->moved[0][step]), latency_mean_px(&experiment->moved[1][step]),
@@ -168,8 +162,6 @@ static void write_needs(const experiment_t *experiment)
     FILE *csv =
         study_csv_begin(experiment->study, "latency_needs.csv",
                         "at 50 ms,px,degrees,worst px,px on the wall,px far away,ms for 1 px,ms for 1 px at worst");
-    if (csv == NULL)
-        return;
     for (int t = 0; t < LATENCY_TRACKS; t++) {
         const latency_error_t *error = &experiment->late[t][BEHIND][AT_50_MS];
         fprintf(csv, "%s,%.2f,%.3f,%.1f,%.2f,%.2f,%.1f,%.1f\n", latency_track_name((latency_track_t)t),

@@ -62,19 +62,20 @@ FILE *study_csv_begin(study_t *study, const char *name, const char *header)
 {
     char error[FILE_ERROR_LENGTH];
     if (study_failed(study))
-        return NULL;
+        return study->nowhere;
     FILE *csv = folder_create_file(study->options.folder, name, error);
-    if (csv == NULL)
+    if (csv == NULL) {
         study_fail(study, "%s", error);
-    else
-        fprintf(csv, "%s\n", header);
+        return study->nowhere;
+    }
+    fprintf(csv, "%s\n", header);
     return csv;
 }
 
 void study_csv_end(study_t *study, FILE *csv)
 {
     char error[FILE_ERROR_LENGTH];
-    if (!folder_close_file(csv, study->options.folder, error))
+    if (csv != study->nowhere && !folder_close_file(csv, study->options.folder, error))
         study_fail(study, "%s", error);
 }
 
@@ -111,12 +112,17 @@ bool study_run(const study_options_t *options, char error[FILE_ERROR_LENGTH])
     study_t study = {.options = *options, .lock = PTHREAD_MUTEX_INITIALIZER};
     char reason[FILE_ERROR_LENGTH] = "";
     study_page_open(&study);
+    study.nowhere = fopen("/dev/null", "wb");
+    if (study.nowhere == NULL)
+        study_fail(&study, "/dev/null: %s", strerror(errno));
     if (!make_folder(&study, reason) || !gnuplot_is_there(reason))
         study_fail(&study, "%s", reason);
     if (!study_failed(&study))
         run_all(&study);
     study_page_write(&study);
     study_page_close(&study);
+    if (study.nowhere != NULL)
+        fclose(study.nowhere);
     pthread_mutex_destroy(&study.lock);
     if (!study_failed(&study))
         return true;

@@ -38,7 +38,7 @@ void study_parallel(study_t *study, int32_t count, study_task_fn *task, void *co
  *
  * @param name    "fig10.csv".
  * @param header  Its first line, without newline.
- * @return Where to print rows to, then to be given to study_csv_end(); NULL after a failure.
+ * @return Where to print rows to, then to be given to study_csv_end(); after a failure a file that forgets them.
  */
 FILE *study_csv_begin(study_t *study, const char *name, const char *header);
 void study_csv_end(study_t *study, FILE *csv);

@@ -70,8 +70,6 @@ void study_curves_plot(study_t *study, const study_curves_t *curves)
 static void print_psnr(study_t *study, const char *name, const study_mesh_run_t *run, int32_t angles)
 {
     FILE *csv = study_curves_begin(study, name, "angle_deg,k_in,k_all,coverage,limit");
-    if (csv == NULL)
-        return;
     for (int32_t a = 0; a < angles; a++) {
         const study_mesh_result_t *found = &run[a].found;
         fprintf(csv, "%g,%.4f,%.4f,%.4f,%.4f", run[a].at.angle_deg, found->k_in, found->k_all, found->coverage,
