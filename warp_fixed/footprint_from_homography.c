@@ -13,6 +13,8 @@
 
 enum { FORM_BITS = 60, MAX_EDGES = 5 };
 
+static const int32_t least_exponent = -(1 << 20); /* beyond all that any homography leads to */
+
 /* Rounding along and across to integers moves a form by at most 4096 over the panel, and the reals' own errors less. */
 static const int64_t form_error = 1 << 14;
 
@@ -25,6 +27,7 @@ typedef struct {
 typedef struct {
     int axis; /* 0: lines are rows, 1: columns */
     int32_t length, count;
+    bool in_front;           /* all of the panel */
     form_t w, change[2];     /* change / (w w') is the way from a pixel's point to the next one's, */
     int32_t change_exponent; /* * 2^change_exponent, but for w's scale, which both axes share */
 } lines_t;
@@ -36,17 +39,17 @@ typedef struct {
     bool from_end;
 } edge_t;
 
-/* mantissa * 2^exponent; 2^31 <= mantissa < 2^32, or 0. */
+/* mantissa * 2^exponent; 2^30 <= mantissa < 2^32, or 0 with the least exponent. */
 typedef struct {
     uint32_t mantissa;
     int32_t exponent;
 } short_t;
 
-/* The pair of pixels (u, v) and its right or lower neighbour; their points are sqrt(square / depth) apart. */
+/* Pixels i and i + 1 of line j; their points are sqrt(square / depth) apart. */
 typedef struct {
     short_t square, depth;
     int axis;
-    int32_t uv[2];
+    int32_t ij[2];
 } pair_t;
 
 /* What |form| cannot exceed on the panel. */
@@ -87,6 +90,7 @@ static void lines_from_homography(lines_t *lines, const homography_t *h, int axi
     lines->length = axis == 0 ? h->panel_width : h->panel_height;
     lines->count = axis == 0 ? h->panel_height : h->panel_width;
     lines->w = form_from_reals(h->row[2], axis, form_bound(h, h->row[2]));
+    lines->in_front = form_least(&lines->w, lines) >= form_error;
 
     real_t change[2][3], bound = real_from_int(0, 0);
     for (int a = 0; a < 2; a++) {
@@ -146,27 +150,31 @@ static int32_t edge_next(edge_t *edge, int32_t length)
 static short_t short_from_wide(uint128_t wide)
 {
     const uint64_t high = (uint64_t)(wide >> 64), low = (uint64_t)wide;
-    if (high == 0 && low == 0)
-        return (short_t){0, 0};
-    const int bits = high != 0 ? 128 - __builtin_clzll(high) : 64 - __builtin_clzll(low);
-    return (short_t){(uint32_t)(bits > 32 ? wide >> (bits - 32) : wide << (32 - bits)), bits - 32};
+    if (wide == 0)
+        return (short_t){0, least_exponent};
+    const int zeros = high != 0 ? __builtin_clzll(high) : 64 + __builtin_clzll(low);
+    return (short_t){(uint32_t)(wide << zeros >> 96), 96 - zeros};
 }
 
-/* @return Is pair a's distance larger, but for 2^-29 of it? */
-static bool pair_larger(const pair_t *a, const pair_t *b)
+/* Take the pair at pixel i of line j for *largest when it is larger, by more than 2^-28 of it. */
+static void consider(pair_t *largest, const lines_t *lines, short_t square, int32_t i, int32_t j)
 {
-    const uint64_t left = (uint64_t)a->square.mantissa * b->depth.mantissa;
-    const uint64_t right = (uint64_t)b->square.mantissa * a->depth.mantissa;
-    if (left == 0 || right == 0) /* depth is never 0 */
-        return left > right;
-    const int32_t lead = a->square.exponent + b->depth.exponent - b->square.exponent - a->depth.exponent;
-    const int shift = 2 + clamp_i32(lead, -2, 2); /* both are in [2^62, 2^64): a lead of 2 decides */
-    return (uint128_t)left << shift > (uint128_t)right << 2;
+    const int64_t w = form_at(&lines->w, i, j);
+    const short_t once = short_from_wide((uint128_t)w * (uint64_t)(w + lines->w.along));
+    const short_t depth = {(uint32_t)((uint64_t)once.mantissa * once.mantissa >> 32), 2 * once.exponent + 32};
+
+    const uint64_t this = (uint64_t)square.mantissa * largest->depth.mantissa;
+    const uint64_t that = (uint64_t)largest->square.mantissa * depth.mantissa;
+    const int32_t lead = square.exponent + largest->depth.exponent - largest->square.exponent - depth.exponent;
+    if (lead <= -3 || (lead < 3 && (lead < 0 ? this >> -lead <= that : this <= that >> lead)))
+        return; /* both are 0 or in [2^61, 2^64): a lead of 3 decides */
+    *largest = (pair_t){square, depth, lines->axis, {i, j}};
 }
 
-/* Replace *largest by a larger pair of neighbours that the edges let through, if there is one. */
-static void find_largest(pair_t *largest, const lines_t *lines, edge_t *edge, int edges)
+/* Go through the lines for the largest pair in the picture and, where all is in front, the largest of all. */
+static void find_largest(pair_t *in, pair_t *all, const lines_t *lines, edge_t *edge, int edges)
 {
+    const bool nearer_on = lines->w.along < 0;
     for (int32_t j = 0; j < lines->count; j++) {
         int32_t first = 0, last = lines->length - 1;
         for (int e = 0; e < edges; e++) {
@@ -176,21 +184,13 @@ static void find_largest(pair_t *largest, const lines_t *lines, edge_t *edge, in
             else
                 first = at > first ? at : first;
         }
-        if (first >= last)
-            continue;
-        const int32_t i = lines->w.along > 0 ? first : last - 1;
-        const int64_t w = form_at(&lines->w, i, j);
         const int64_t x = form_at(&lines->change[0], 0, j), y = form_at(&lines->change[1], 0, j);
-        const short_t once = short_from_wide((uint128_t)w * (uint64_t)(w + lines->w.along));
-        pair_t pair = {.square = short_from_wide((uint128_t)((int128_t)x * x + (int128_t)y * y)),
-                       .depth = short_from_wide((uint128_t)once.mantissa * once.mantissa),
-                       .axis = lines->axis};
-        pair.square.exponent += 2 * lines->change_exponent;
-        pair.depth.exponent += 2 * once.exponent;
-        pair.uv[lines->axis] = i;
-        pair.uv[1 - lines->axis] = j;
-        if (pair_larger(&pair, largest))
-            *largest = pair;
+        short_t square = short_from_wide((uint128_t)((int128_t)x * x + (int128_t)y * y));
+        square.exponent += 2 * lines->change_exponent;
+        if (first < last)
+            consider(in, lines, square, nearer_on ? last - 1 : first, j);
+        if (lines->in_front && lines->length > 1)
+            consider(all, lines, square, nearer_on ? lines->length - 2 : 0, j);
     }
 }
 
@@ -200,9 +200,10 @@ static int32_t distance_q16(const homography_t *h, const pair_t *pair)
         return 0;
     real_t point[2][2];
     for (int end = 0; end < 2; end++) {
-        const int64_t u_half = 2 * (int64_t)(pair->uv[0] + (end == 1 && pair->axis == 0)) + 1;
-        const int64_t v_half = 2 * (int64_t)(pair->uv[1] + (end == 1 && pair->axis == 1)) + 1;
-        const real_t at[3] = {real_from_int(u_half, -1), real_from_int(v_half, -1), real_from_int(1, 0)};
+        real_t at[3];
+        at[pair->axis] = real_from_int(2 * (int64_t)(pair->ij[0] + end) + 1, -1);
+        at[1 - pair->axis] = real_from_int(2 * (int64_t)pair->ij[1] + 1, -1);
+        at[2] = real_from_int(1, 0);
         const real_t w = vector_dot(h->row[2], at);
         for (int a = 0; a < 2; a++)
             point[end][a] = real_div(vector_dot(h->row[a], at), w);
@@ -217,21 +218,17 @@ static int32_t distance_q16(const homography_t *h, const pair_t *pair)
 
 footprint_step_t footprint_step(const homography_t *homography)
 {
-    const pair_t none = {.square = {0, 0}, .depth = {(uint32_t)1 << 31, 0}};
+    const pair_t none = {.square = {0, least_exponent}};
     pair_t in = none, all = none;
-    bool in_front = true;
+    lines_t lines;
     for (int axis = 0; axis < 2; axis++) {
-        lines_t lines;
         edge_t edge[MAX_EDGES];
         lines_from_homography(&lines, homography, axis);
         const int edges = edges_from_homography(edge, homography, &lines);
-        in_front = form_least(&lines.w, &lines) >= form_error;
-        find_largest(&in, &lines, edge, edges);
-        if (in_front)
-            find_largest(&all, &lines, NULL, 0);
+        find_largest(&in, &all, &lines, edge, edges);
     }
     return (footprint_step_t){distance_q16(homography, &in),
-                              in_front ? distance_q16(homography, &all) : FOOTPRINT_MAX_STEP_Q16};
+                              lines.in_front ? distance_q16(homography, &all) : FOOTPRINT_MAX_STEP_Q16};
 }
 
 /* sqrt(a^2 + b^2), |a|, |b| <= 2^31: the sum of squares is at most 2^63. */

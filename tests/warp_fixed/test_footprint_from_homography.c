@@ -80,6 +80,7 @@ static exhaustive_t exhaustive_step(const oracle_scene_t *scene)
     return found;
 }
 
+/* Within 1/65536 px, 0 where there must be none. */
 static bool step_agrees(int32_t found_q16, double least, double most)
 {
     return found_q16 >= least * 65536 - 1 && found_q16 <= (most > 0 ? most * 65536 + 1 : 0);
