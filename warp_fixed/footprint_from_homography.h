@@ -18,8 +18,9 @@ typedef struct {
 
 /**
  * The worst sampling step: the largest distance in the picture of two pixel centres that are neighbours in a row or a
- * column of the panel, exact to 1/65536 px (centres within 2^-40 of the panel's reach of the picture's edge are in it).
- * Saturates at FOOTPRINT_MAX_STEP_Q16. O(panel's width + height): one pair of each row and column can be the largest.
+ * column of the panel, exact to 1/65536 px. A centre on the picture's edge lands in it, though it err by 2^-46 of what
+ * the panel reaches. Saturates at FOOTPRINT_MAX_STEP_Q16. O(panel's width + height): one pair of each row and column
+ * can be the largest.
  */
 footprint_step_t footprint_step(const homography_t *homography);
 
