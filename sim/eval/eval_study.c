@@ -60,7 +60,7 @@ int eval_study(int argc, char **argv)
         {.name = "only",
          .key = 'e',
          .arg = "NAME",
-         .doc = "Run this experiment alone, such as 'fig 5'; a wrong name lists them all"},
+         .doc = "Run this experiment alone, such as 'fig 5', for a page of it alone; a wrong name lists them all"},
         {0},
     };
     static const struct argp argp = {
