@@ -22,7 +22,7 @@ struct study {
     int section_count;
     int claims_of[STUDY_VERDICTS]; /**< by verdict */
     bool figures_open;             /**< a row of figures has begun */
-    FILE *nowhere; /**< takes the rows of CSV files after a failure */
+    FILE *nowhere;                 /**< takes the rows of CSV files after a failure */
     pthread_mutex_t lock;
     atomic_bool failed;
     char error[FILE_ERROR_LENGTH]; /**< written under lock */
