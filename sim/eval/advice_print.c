@@ -23,12 +23,22 @@ void advice_print_csv(FILE *out, const wall_advice_t *advice)
     }
 }
 
-/* Closest to a finer original first; of equal ones the cheaper, and last auto, whose choice is then always the other.
+/* By each pixel's own footprint, so that it stays good where the viewer was not expected. */
+static bool adapts(int32_t method)
+{
+    return warp_averages(warp_methods[method].resampler) || warp_methods[method].resampler == WARP_AUTO;
+}
+
+/*
+ * Closest to a finer original first; of equal ones those that adapt, then the cheaper, and last auto, whose choice is
+ * then always the other.
  */
 static bool is_before(const wall_advice_t *advice, int32_t m, int32_t other)
 {
     if (advice->gap_original_db[m] != advice->gap_original_db[other])
         return advice->gap_original_db[m] < advice->gap_original_db[other];
+    if (adapts(m) != adapts(other))
+        return adapts(m);
     if (advice->cost[m] != advice->cost[other])
         return advice->cost[m] < advice->cost[other];
     return warp_methods[other].resampler == WARP_AUTO;

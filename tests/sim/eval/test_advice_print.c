@@ -115,6 +115,12 @@ static void advice_names_a_cheaper_one(void **state)
     /* where auto is mean+cubic everywhere, nobody needs it */
     set(&advice, "auto", 0.25, 20.0);
     assert_says(advice_print_table, &advice, "\n  advice: method: mean+cubic\n");
+    /* of equals, the one that stays good where the viewer was not expected */
+    set(&advice, "gauss+cubic", 0.25, 19.0);
+    set(&advice, "none+cubic", 0.25, 20.0);
+    assert_says(advice_print_table, &advice, "\n  advice: method: mean+cubic;");
+    set(&advice, "gauss+cubic", 1.0, 50.0);
+    set(&advice, "none+cubic", 1.0, 50.0);
     set(&advice, "mean+spline", 0.2, 24.0);
     assert_says(advice_print_table, &advice, "; mean+cubic is within 0.1 dB of it at 83 % of its cost\n");
 }
