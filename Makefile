@@ -102,17 +102,29 @@ GOLDEN_VARIANTS := gcc-O0 gcc-O3 clang-O0 clang-O3 aarch64-linux-gnu-gcc-O0 aarc
 $(GOLDEN): $(call objects,tests/golden/golden_hashes.c) $(BUILD)/libwarp.a
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^
+
+# The checker of vector code, in the optimised ones of these variants.
+CHECK_KERNELS   := $(BUILD)/check_kernels
+KERNEL_VARIANTS := $(filter %-O3,$(GOLDEN_VARIANTS))
+$(CHECK_KERNELS): $(call objects,$(wildcard tests/kernels/*.c)) $(BUILD)/libwarp.a
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+
 .PHONY: golden $(GOLDEN_VARIANTS:%=golden-%)
 golden: $(GOLDEN_VARIANTS:%=golden-%)
 $(GOLDEN_VARIANTS:%=golden-%): golden-%:
 	$(Q)variant=$* && $(MAKE) --no-print-directory BUILD=build/variants/$* CC=$${variant%-O?} OPT=-$${variant##*-} \
-	    LDFLAGS=-static build/variants/$*/golden_hashes
+	    LDFLAGS=-static build/variants/$*/golden_hashes $(if $(filter $*,$(KERNEL_VARIANTS)),build/variants/$*/check_kernels)
 
 # Commands of the test run, one word list each.
-golden_check = tests/golden/check.sh $(if $(findstring aarch64,$(1)),qemu-aarch64 )build/variants/$(1)/golden_hashes
+emulated     = $(if $(findstring aarch64,$(1)),qemu-aarch64 )
+golden_check = tests/golden/check.sh $(call emulated,$(1))build/variants/$(1)/golden_hashes
+kernel_check = $(call emulated,$(1))build/variants/$(1)/check_kernels
+LEVELS       := scalar neon
 SCRIPTS      := $(wildcard tests/*/test_*.sh tests/*/*/test_*.sh)
 RUN_TESTS     = $(foreach t,$(TESTS),'$(t)') $(foreach s,$(SCRIPTS),'$(s) $(BUILD)') \
-                $(foreach v,$(GOLDEN_VARIANTS),'$(call golden_check,$(v))')
+                $(foreach v,$(GOLDEN_VARIANTS),$(foreach l,$(LEVELS),'$(call golden_check,$(v)) $(l)')) \
+                $(foreach v,$(KERNEL_VARIANTS),'$(call kernel_check,$(v))')
 
 .PHONY: test run-tests
 test: setup-test ## Run every test; the last line says how many passed and failed

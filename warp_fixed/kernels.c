@@ -2,6 +2,7 @@
 // The table of pixel loops.
 #include "warp_fixed/kernels.h"
 
+#include "warp_fixed/kernels_neon.h"
 #include "warp_fixed/kernels_scalar.h"
 
 const warp_kernels_t warp_kernels_scalar = {
@@ -21,3 +22,28 @@ const warp_kernels_t warp_kernels_scalar = {
     .ls_gray = resample_ls_gray_scalar,
     .ls_xrgb = resample_ls_xrgb_scalar,
 };
+
+const warp_kernels_t warp_kernels_neon = {
+    .name = "neon",
+    .grid_points = grid_points_neon,
+    .nearest_gray = resample_nearest_gray_neon,
+    .nearest_xrgb = resample_nearest_xrgb_neon,
+    .window_gray = resample_window_gray_neon,
+    .window_xrgb = resample_window_xrgb_neon,
+    .coefficients_gray = resample_coefficients_gray_neon,
+    .coefficients_xrgb = resample_coefficients_xrgb_neon,
+    .filter_columns = filter_columns_neon,
+    .filter_row = filter_row_neon,
+    .filter_row_bytes = filter_row_bytes_neon,
+    .ls_forward = ls_forward_neon,
+    .ls_backward = ls_backward_neon,
+    .ls_gray = resample_ls_gray_scalar,
+    .ls_xrgb = resample_ls_xrgb_scalar,
+};
+
+const warp_kernels_t *const warp_kernels_levels[WARP_KERNELS_LEVELS] = {&warp_kernels_scalar, &warp_kernels_neon};
+
+const warp_kernels_t *warp_kernels_best(void)
+{
+    return warp_kernels_levels[WARP_KERNELS_LEVELS - 1];
+}

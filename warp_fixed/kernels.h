@@ -141,4 +141,15 @@ typedef struct {
 /** Plain C: the definition of every loop. */
 extern const warp_kernels_t warp_kernels_scalar;
 
+/** NEON (neon.h); loops that have no vector code yet are the scalar ones. */
+extern const warp_kernels_t warp_kernels_neon;
+
+enum { WARP_KERNELS_LEVELS = 2 };
+
+/** Every level, the slowest first. */
+extern const warp_kernels_t *const warp_kernels_levels[WARP_KERNELS_LEVELS];
+
+/** @return The fastest level that this build has. */
+const warp_kernels_t *warp_kernels_best(void);
+
 #endif

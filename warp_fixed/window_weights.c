@@ -147,6 +147,7 @@ static void fill_row(window_weights_t *weights, const kernel_t *kernel, int32_t 
     for (int32_t i = 0; i < taps; i++) {
         const int64_t t = PHASE * phase - ONE * (start + i);
         exact[i] = s == 0 ? kernel->value(t) : kernel->integral(t + s) - kernel->integral(t - s);
+        weights->negative |= exact[i] < 0;
     }
     weights->start[side][phase] = (int8_t)start;
     int32_t first_sum = (kernel->positive ? FIRST_SUM_POSITIVE : FIRST_SUM) << first_shift_of(taps);
@@ -163,6 +164,7 @@ void window_weights_init(window_weights_t *weights, warp_resampler_t resampler, 
     if (kernel == NULL)
         return;
     weights->of_coefficients = of_coefficients;
+    weights->negative = false;
     const int32_t sides = warp_averages(resampler) ? WINDOW_SIDES : 1;
     uint32_t at = 0;
     for (int32_t side = 0; side < sides; side++) {
@@ -208,5 +210,6 @@ window_axis_t window_axis(const window_weights_t *weights, uint16_t side)
     const uint32_t at = weights->at[side];
     const int32_t taps = weights->taps[side];
     const int32_t first_shift = weights->of_coefficients ? COEFFICIENT_SUM_LOG2 : first_shift_of(taps);
-    return (window_axis_t){&weights->first[at], &weights->second[at], weights->start[side], taps, first_shift};
+    return (window_axis_t){weights->negative, &weights->first[at], &weights->second[at], weights->start[side], taps,
+                           first_shift};
 }

@@ -18,16 +18,19 @@ enum {
     WINDOW_SIDES = 64 + 6 * 32 + 1, /**< below 1 px in steps of 1/64, then 32 steps to each doubling, up to 64 px */
     WINDOW_MAX_SIDE = 64,           /**< picture pixels; larger footprints are read from halved levels */
     WINDOW_MAX_TAPS = WINDOW_MAX_SIDE + 4,
-    WINDOW_SHORT_TAPS = 8,      /**< up to here the first pass has 8-bit weights */
-    WINDOW_POOL = 4212 * PHASES /**< weights of all sides of the widest kernel, half width 2 */
+    WINDOW_SHORT_TAPS = 8, /**< up to here the first pass has 8-bit weights */
+    WINDOW_ROW_SLACK = 8,  /**< weights from the begin of a row that vector code may load, if there are fewer */
+    WINDOW_POOL = 4212 * PHASES + WINDOW_ROW_SLACK /**< weights of all sides of the widest kernel, half width 2 */
 };
 
 /** Weights along one axis for one side: row `phase` of each table has `taps` entries. */
 typedef struct {
+    bool negative; /**< some weights of the table are: sums overshoot what bytes can make */
     const int16_t
         *first; /**< sum FIRST_SUM, FIRST_SUM_POSITIVE, or that << LONG_FIRST_SHIFT; of coefficients as second */
     const int16_t *second; /**< sum SECOND_SUM, SECOND_SUM_POSITIVE, of coefficients 1 << COEFFICIENT_SUM_LOG2 */
-    const int8_t *start;   /**< first texel of the window, from the texel whose centre is at or before the point */
+    const int8_t *start;   /**< first texel of the window, from the texel whose centre is at or before the point; rises
+                              with the phase */
     int32_t taps;          /**< 1 to WINDOW_MAX_TAPS */
     int32_t
         first_shift; /**< 0, or LONG_FIRST_SHIFT when taps > WINDOW_SHORT_TAPS; of coefficients: COEFFICIENT_SUM_LOG2 */
@@ -36,6 +39,7 @@ typedef struct {
 /** The table of one resampler. */
 typedef struct {
     bool of_coefficients;      /**< not of texels: kernels.h */
+    bool negative;             /**< some weights are */
     uint32_t at[WINDOW_SIDES]; /**< of row 0 in the pools */
     uint8_t taps[WINDOW_SIDES];
     int8_t start[WINDOW_SIDES][PHASES];

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints one line per case, "name hash": the bytes that every compiler, optimisation and CPU must make.
+// Prints one line per case, "name hash": the bytes that every compiler, optimisation, CPU and table of loops must make.
+//
+// usage: golden_hashes LEVEL        the name of a table of loops (kernels.h), as scalar
 //
 // The reference is hashes.txt beside this file. No library, no file, no float: it runs wherever warp_fixed does.
 #include <inttypes.h>
@@ -23,6 +25,7 @@ static const viewpoint_t viewpoints[4] = {
     {"close", {{300000000, -200000000, -400000000}, {690188097, 30000000, 20000000, 822533959}}},
 };
 
+static const warp_kernels_t *kernels;
 static warp_t warp;
 static uint8_t picture_bytes[PICTURE_WIDTH * PICTURE_HEIGHT * 4], panel_bytes[PANEL_WIDTH * PANEL_HEIGHT * 4];
 
@@ -72,7 +75,7 @@ static void print_frame(const viewpoint_t *viewpoint, const warp_method_t *metho
     warp_init(&warp, *method, false, border);
     const bool made = wall_from_corners(&wall, &corners) == WALL_OK &&
                       homography_from_pose(&homography, &camera, &wall, &viewpoint->pose) &&
-                      warp_frame(&warp, &warp_kernels_scalar, &report, &homography, &panel, &picture);
+                      warp_frame(&warp, kernels, &report, &homography, &panel, &picture);
     printf("%s/%s/%s %016" PRIx64 " k_in %" PRId32 " k_all %" PRId32 " lit %" PRId32 "%s\n", viewpoint->name,
            method->name, format == IMAGE_GRAY8 ? "gray" : "xrgb", hash_of(panel_bytes, sizeof(panel_bytes)),
            report.k_in_q16, report.k_all_q16, report.lit_pixels, made ? "" : " NOT MADE");
@@ -85,14 +88,21 @@ static void print_fits(void)
     const image_t picture = {picture_bytes, PICTURE_WIDTH, PICTURE_HEIGHT, PICTURE_WIDTH * 4, IMAGE_XRGB8888};
     ls_init(&ls);
     for (int32_t k_q16 = 1 << 16; k_q16 < 2000000; k_q16 = k_q16 * 3 / 2 + 1) {
-        const ls_surface_t surface = ls_fit(&ls, &warp_kernels_scalar, &picture, k_q16);
+        const ls_surface_t surface = ls_fit(&ls, kernels, &picture, k_q16);
         const size_t count = (size_t)surface.x->coefficients * (size_t)surface.y->coefficients * 4;
         printf("fit, k %" PRId32 " %016" PRIx64 "\n", k_q16, hash_of(surface.coefficients, count * sizeof(int32_t)));
     }
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    for (int level = 0; argc == 2 && level < WARP_KERNELS_LEVELS; level++)
+        if (strcmp(argv[1], warp_kernels_levels[level]->name) == 0)
+            kernels = warp_kernels_levels[level];
+    if (kernels == NULL) {
+        fprintf(stderr, "golden_hashes: expected scalar or neon\n");
+        return 2;
+    }
     paint();
     for (int v = 0; v < 4; v++) {
         for (int m = 0; m < WARP_METHODS; m++) {

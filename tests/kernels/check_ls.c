@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// The least-squares loops, with the rotations and solutions of real axes.
+#include <string.h>
+
+#include "tests/kernels/check.h"
+#include "warp_fixed/fixed.h"
+#include "warp_fixed/ls_axis.h"
+
+enum { STRIP = LS_TAPS * LS_LANES, MAX_DATA = 255 << 17, MAX_STATE = 1 << 29 };
+
+static ls_axis_t axes[2];
+static outputs_t outputs;
+
+/* Both tables begin from the same strip, which is written in place. */
+static void fill_strip(int32_t limit, rng_t *rng)
+{
+    outputs_begin(&outputs, STRIP * sizeof(int32_t));
+    const int extreme = (int)rng_int(rng, 0, 3) == 0;
+    int32_t *strip = outputs.expected;
+    for (int i = 0; i < STRIP; i++)
+        strip[i] = extreme ? (rng_int(rng, 0, 1) ? limit : -limit) : (int32_t)rng_int(rng, -limit, limit);
+    memcpy(outputs.found, outputs.expected, STRIP * sizeof(int32_t));
+}
+
+static void check_axis(const warp_kernels_t *tested, const ls_axis_t *axis, rng_t *rng)
+{
+    int32_t data[LS_LANES];
+    for (int32_t i = 0; i < axis->equations; i++) {
+        check_case("ls_forward, %d equations, number %d", axis->equations, i);
+        fill_strip(MAX_STATE, rng);
+        for (int lane = 0; lane < LS_LANES; lane++)
+            data[lane] = (int32_t)rng_int(rng, -1, 1) * (int32_t)rng_int(rng, 0, MAX_DATA);
+        warp_kernels_scalar.ls_forward(outputs.expected, data, &axis->equation[i]);
+        tested->ls_forward(outputs.found, data, &axis->equation[i]);
+        outputs_compare(&outputs);
+    }
+    for (int32_t j = 0; j < axis->coefficients; j++) {
+        check_case("ls_backward, %d coefficients, number %d", axis->coefficients, j);
+        fill_strip(rng_int(rng, 0, 1) ? INT32_MAX : MAX_STATE, rng);
+        warp_kernels_scalar.ls_backward(outputs.expected, &axis->solution[j]);
+        tested->ls_backward(outputs.found, &axis->solution[j]);
+        outputs_compare(&outputs);
+    }
+}
+
+static void check_surface(const warp_kernels_t *tested, image_format_t format, rng_t *rng)
+{
+    static fenced_t memory;
+    int32_t x[CHECK_MAX_COUNT], y[CHECK_MAX_COUNT];
+    const size_t count = (size_t)axes[0].coefficients * (size_t)axes[1].coefficients * format;
+    if (memory.begin == NULL)
+        memory = fenced_new(200 * 200 * 4 * sizeof(int32_t));
+    int32_t *coefficients = fenced_place(&memory, count * sizeof *coefficients, (int)rng_int(rng, 0, 1));
+    for (size_t i = 0; i < count; i++)
+        coefficients[i] = (int32_t)rng_int(rng, -300 * 16, 600 * 16);
+    const ls_surface_t surface = {&axes[0], &axes[1], coefficients, (int32_t)rng_int(rng, 0, 4)};
+    for (int32_t points = 0; points <= CHECK_MAX_COUNT; points++) {
+        for (int32_t k = 0; k < points; k++) {
+            x[k] = (int32_t)rng_int(rng, -3 * (1 << 18), (axes[0].knots.size + 3) << 18);
+            y[k] = (int32_t)rng_int(rng, -3 * (1 << 18), (axes[1].knots.size + 3) << 18);
+        }
+        check_case("ls surface of %d x %d coefficients of %d channels, count %d", axes[0].coefficients,
+                   axes[1].coefficients, (int)format, points);
+        outputs_begin(&outputs, (size_t)points * format);
+        const int gray = format == IMAGE_GRAY8;
+        (gray ? warp_kernels_scalar.ls_gray : warp_kernels_scalar.ls_xrgb)(outputs.expected, &surface, x, y, points);
+        (gray ? tested->ls_gray : tested->ls_xrgb)(outputs.found, &surface, x, y, points);
+        outputs_compare(&outputs);
+    }
+}
+
+void check_ls(const warp_kernels_t *tested)
+{
+    static uint16_t weight[LS_MAX_SIZE];
+    for (uint64_t seed = 1; seed <= 60; seed++) {
+        rng_t rng = {seed};
+        const int uniform = (int)rng_int(&rng, 0, 1);
+        for (int i = 0; i < LS_MAX_SIZE; i++)
+            weight[i] = uniform ? LS_WEIGHT_ONE : (uint16_t)rng_int(&rng, 0, LS_WEIGHT_ONE);
+        for (int axis = 0; axis < 2; axis++) {
+            ls_axis_init(&axes[axis]);
+            ls_axis_update(&axes[axis], (int32_t)rng_int(&rng, 1, 90), (int32_t)rng_int(&rng, 1 << 15, 5 << 16),
+                           weight);
+            check_axis(tested, &axes[axis], &rng);
+        }
+        check_surface(tested, seed % 2 ? IMAGE_GRAY8 : IMAGE_XRGB8888, &rng);
+    }
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loops in NEON (neon.h): the same bytes as the scalar ones, which do what is left over at the end. See kernels.h.
+#ifndef WARP_FIXED_KERNELS_NEON_H
+#define WARP_FIXED_KERNELS_NEON_H
+
+#include "warp_fixed/kernels.h"
+
+grid_points_fn grid_points_neon;
+resample_nearest_fn resample_nearest_gray_neon;
+resample_nearest_fn resample_nearest_xrgb_neon;
+resample_window_fn resample_window_gray_neon;
+resample_window_fn resample_window_xrgb_neon;
+resample_window_fn resample_coefficients_gray_neon;
+resample_window_fn resample_coefficients_xrgb_neon;
+filter_columns_fn filter_columns_neon;
+filter_row_fn filter_row_neon;
+filter_row_bytes_fn filter_row_bytes_neon;
+ls_forward_fn ls_forward_neon;
+ls_backward_fn ls_backward_neon;
+
+#endif

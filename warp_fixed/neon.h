@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// NEON intrinsics: the CPU's own on AArch64, SIMDe's portable ones elsewhere, so that one source runs everywhere.
+//
+// Debian 12's SIMDe is 0.7.4, which lacks some intrinsics of AArch64: what is used must be in it. Integers only.
+#ifndef WARP_FIXED_NEON_H
+#define WARP_FIXED_NEON_H
+
+#ifdef __aarch64__
+#include <arm_neon.h>
+#else
+#define SIMDE_ENABLE_NATIVE_ALIASES
+#include <simde/arm/neon.h>
+#endif
+
+#endif

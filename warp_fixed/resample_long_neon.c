@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Windows with more than WINDOW_SHORT_TAPS along either axis: eight columns at a time, with 16-bit weights.
+//
+// First-pass sums less their middle, 128 times the sum of weights, fit signed 16 bits whatever the weights' sign.
+#include "warp_fixed/resample_long_neon.h"
+
+#include <string.h>
+
+#include "warp_fixed/kernels_scalar.h"
+#include "warp_fixed/window_place_neon.h"
+
+enum { LANES = 8 };
+
+/* How much less the first-pass sums are, and what the second pass begins with for that. */
+typedef struct {
+    int32_t middle, start;
+} offset_t;
+
+/* Tables of windows this long are area's and mean+cubic's. */
+static offset_t offset_of(const window_t *window)
+{
+    const int32_t first_sum = window->x.negative ? FIRST_SUM : FIRST_SUM_POSITIVE;
+    const int32_t second_sum = window->x.negative ? SECOND_SUM : SECOND_SUM_POSITIVE;
+    return (offset_t){128 * first_sum, 128 * first_sum * second_sum};
+}
+
+/* First-pass sums of `columns` bytes, rounded up to whole vectors, into v. */
+static inline void first_pass(int16_t *v, const uint8_t *texels, ptrdiff_t stride, const window_axis_t *y,
+                              const int16_t *first, int32_t columns, int32_t middle)
+{
+    const int32x4_t start = vdupq_n_s32(((1 << y->first_shift) >> 1) - middle * (1 << y->first_shift));
+    const int32x4_t shift = vdupq_n_s32(-y->first_shift);
+    for (int32_t c = 0; c < columns; c += LANES) {
+        int32x4_t low = start, high = start;
+        const uint8_t *at = texels + c;
+        for (int32_t t = 0; t < y->taps; t++, at += stride) {
+            const int16x8_t wide = vreinterpretq_s16_u16(vmovl_u8(vld1_u8(at)));
+            low = vmlal_n_s16(low, vget_low_s16(wide), first[t]);
+            high = vmlal_n_s16(high, vget_high_s16(wide), first[t]);
+        }
+        vst1q_s16(v + c, vcombine_s16(vmovn_s32(vshlq_s32(low, shift)), vmovn_s32(vshlq_s32(high, shift))));
+    }
+}
+
+/* pixel_from_sum() of four channels. */
+static inline uint8x8_t pixel_from_sums(int32x4_t sums)
+{
+    const int16x4_t high = vshrn_n_s32(vaddq_s32(sums, vdupq_n_s32(1 << (SUM_SHIFT - 1))), 16);
+    return vqshrun_n_s16(vcombine_s16(high, high), SUM_SHIFT - 16);
+}
+
+static inline int32x4_t second_pass_xrgb(const int16_t *v, const int16_t *second, int32_t taps, int32_t start)
+{
+    int32x4_t sums = vdupq_n_s32(start);
+    for (int32_t u = 0; u < taps; u++)
+        sums = vmlal_n_s16(sums, vld1_s16(v + 4 * u), second[u]);
+    return sums;
+}
+
+/* v is 0 beyond the window, where weights of other rows stand. */
+static inline int32_t second_pass_gray(const int16_t *v, const int16_t *second, int32_t taps, int32_t start)
+{
+    int32x4_t sums = vdupq_n_s32(0);
+    for (int32_t u = 0; u < taps; u += LANES) {
+        const int16x8_t values = vld1q_s16(v + u), weights = vld1q_s16(second + u);
+        sums = vmlal_s16(sums, vget_low_s16(values), vget_low_s16(weights));
+        sums = vmlal_s16(sums, vget_high_s16(values), vget_high_s16(weights));
+    }
+    return start + vaddvq_s32(sums);
+}
+
+void resample_long_xrgb_neon(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
+                             const int32_t *restrict y_q18, int32_t count)
+{
+    const ptrdiff_t stride = window->picture.stride;
+    const int32_t nx = window->x.taps, ny = window->y.taps;
+    const offset_t offset = offset_of(window);
+    const placer_t placer = placer_of(window, (nx + 1) & -2, stride);
+    int16_t v[4 * WINDOW_MAX_TAPS + LANES];
+    places_t places;
+    int32_t k = 0;
+    for (; k + PLACE_STEP <= count; k += PLACE_STEP) {
+        if (!find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
+            resample_window_xrgb_scalar(out + (ptrdiff_t)k * 4, window, x_q18 + k, y_q18 + k, PLACE_STEP);
+            continue;
+        }
+        for (int i = 0; i < PLACE_STEP; i++) {
+            const uint8_t *texels = window->picture.data + place_begin(&places, window, i, stride, 4);
+            first_pass(v, texels, stride, &window->y, window->y.first + places.phase_y[i] * ny, 4 * nx, offset.middle);
+            const int16_t *second = window->x.second + places.phase_x[i] * nx;
+            const uint8x8_t pixel = pixel_from_sums(second_pass_xrgb(v, second, nx, offset.start));
+            memcpy(out + (ptrdiff_t)(k + i) * 4, &pixel, 4);
+        }
+    }
+    resample_window_xrgb_scalar(out + (ptrdiff_t)k * 4, window, x_q18 + k, y_q18 + k, count - k);
+}
+
+void resample_long_gray_neon(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
+                             const int32_t *restrict y_q18, int32_t count)
+{
+    const ptrdiff_t stride = window->picture.stride;
+    const int32_t nx = window->x.taps, ny = window->y.taps;
+    const offset_t offset = offset_of(window);
+    const placer_t placer = placer_of(window, (nx + LANES - 1) & -LANES, stride);
+    int16_t v[WINDOW_MAX_TAPS + 2 * LANES];
+    places_t places;
+    int32_t k = 0;
+    for (; k + PLACE_STEP <= count; k += PLACE_STEP) {
+        if (!find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
+            resample_window_gray_scalar(out + k, window, x_q18 + k, y_q18 + k, PLACE_STEP);
+            continue;
+        }
+        for (int i = 0; i < PLACE_STEP; i++) {
+            const uint8_t *texels = window->picture.data + place_begin(&places, window, i, stride, 1);
+            first_pass(v, texels, stride, &window->y, window->y.first + places.phase_y[i] * ny, nx, offset.middle);
+            vst1q_s16(v + nx, vdupq_n_s16(0));
+            const int16_t *second = window->x.second + places.phase_x[i] * nx;
+            out[k + i] = pixel_from_sum(second_pass_gray(v, second, nx, offset.start));
+        }
+    }
+    resample_window_gray_scalar(out + k, window, x_q18 + k, y_q18 + k, count - k);
+}
