@@ -117,8 +117,7 @@ int main(int argc, char **argv)
             static fir_t fir;
             memset(&fir, 0, sizeof(fir));
             fir_design(&fir, filter, k_q16, filter == WARP_FILTER_KAISER);
-            printf("filter %d, k %" PRId32 " %016" PRIx64 "\n", (int)filter, k_q16,
-                   hash_of(&fir, sizeof fir));
+            printf("filter %d, k %" PRId32 " %016" PRIx64 "\n", (int)filter, k_q16, hash_of(&fir, sizeof fir));
         }
     }
     print_fits();

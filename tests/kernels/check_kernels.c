@@ -75,13 +75,8 @@ int main(void)
         const char *name;
         check_group_fn *run;
     } groups[] = {
-        {"grid_points", check_grid_points},
-        {"prefilter", check_prefilter},
-        {"spline_row", check_spline_row},
-        {"nearest", check_nearest},
-        {"windows", check_windows},
-        {"splines", check_splines},
-        {"ls", check_ls},
+        {"grid_points", check_grid_points}, {"filters", check_filters},           {"nearest", check_nearest},
+        {"windows", check_windows},         {"coefficients", check_coefficients}, {"ls", check_ls},
         {"frames", check_frames},
     };
     int passed = 0, failed = 0;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Both passes of the prefilter and of the filter that makes spline coefficients, with the weights they are given.
-#include <string.h>
+// Both passes of every filter, with the weights that are in use.
+#include <stdbool.h>
 
 #include "tests/kernels/check.h"
 #include "warp_fixed/fir_design.h"
 #include "warp_fixed/fixed.h"
-#include "warp_fixed/spline.h"
 
 enum { ROWS = 3, MAX_BYTES = CHECK_MAX_COUNT + 3, EDGE = 4 * PREFILTER_MAX_RADIUS };
 
@@ -33,11 +32,11 @@ static void check_columns(const warp_kernels_t *tested, const fir_t *fir, const 
             for (int32_t d = -fir->radius; d <= fir->radius; d++)
                 rows[d + fir->radius] = kind < CHECK_FILLS
                                             ? memory[rng_int(&rng, 0, ROWS - 1)]
-                                            : memory[extreme(fir->first[d < 0 ? -d : d], kind - CHECK_FILLS)];
-            check_case("prefilter_columns, %s, radius %d, fill %d, count %d", name, fir->radius, kind, count);
+                                            : memory[extreme(fir->weight[d < 0 ? -d : d], kind - CHECK_FILLS)];
+            check_case("filter_columns, %s, radius %d, fill %d, count %d", name, fir->radius, kind, count);
             outputs_begin(&outputs, (size_t)count * sizeof(int16_t));
-            warp_kernels_scalar.prefilter_columns(outputs.expected, rows, fir, count);
-            tested->prefilter_columns(outputs.found, rows, fir, count);
+            warp_kernels_scalar.filter_columns(outputs.expected, rows, fir, count);
+            tested->filter_columns(outputs.found, rows, fir, count);
             outputs_compare(&outputs);
         }
     }
@@ -49,10 +48,10 @@ static void range_of(const fir_t *fir, int32_t range[2])
     for (int largest = 0; largest < 2; largest++) {
         int32_t sum = 0;
         for (int32_t d = -fir->radius; d <= fir->radius; d++) {
-            const int32_t weight = fir->first[d < 0 ? -d : d];
+            const int32_t weight = fir->weight[d < 0 ? -d : d];
             sum += extreme(weight, !largest) ? 255 * weight : 0;
         }
-        range[largest] = ((sum + ((1 << fir->first_shift) >> 1)) >> fir->first_shift) - fir->offset;
+        range[largest] = (sum >> (FILTER_SUM_LOG2 - FILTER_FIRST_BITS)) - (COEFFICIENT_MIDDLE << FILTER_FIRST_BITS);
     }
 }
 
@@ -63,14 +62,14 @@ static void fill_sums(int16_t *v, const fir_t *fir, int32_t count, int32_t chann
     range_of(fir, range);
     for (int32_t i = 0; i < count + 2 * fir->radius * channels; i++) {
         const int32_t d = i / channels - fir->radius, distance = d < 0 ? -d : d;
-        const int32_t weight = distance <= fir->radius ? fir->second[distance] : 0;
+        const int32_t weight = distance <= fir->radius ? fir->weight[distance] : 0;
         v[i] = (int16_t)(kind == 0   ? rng_int(rng, range[0], range[1])
                          : kind == 1 ? range[rng_int(rng, 0, 1)]
                                      : range[extreme(weight, kind == 2)]);
     }
 }
 
-static void check_rows(const warp_kernels_t *tested, const fir_t *fir, int splines, const char *name)
+static void check_rows(const warp_kernels_t *tested, const fir_t *fir, bool bytes, const char *name)
 {
     rng_t rng = {(uint64_t)fir->radius};
     for (int kind = 0; kind < 4; kind++) {
@@ -78,15 +77,15 @@ static void check_rows(const warp_kernels_t *tested, const fir_t *fir, int splin
             const int32_t channels = count % 4 == 0 ? 4 : 1, edge = fir->radius * channels;
             int16_t *v = fenced_place(&sums, (size_t)(count + 2 * edge) * sizeof *v, count % 3 == 0);
             fill_sums(v, fir, count, channels, kind, &rng);
-            check_case("%s, %s, radius %d, fill %d, count %d", splines ? "spline_row" : "prefilter_row", name,
+            check_case("%s, %s, radius %d, fill %d, count %d", bytes ? "filter_row_bytes" : "filter_row", name,
                        fir->radius, kind, count);
-            outputs_begin(&outputs, (size_t)count * (splines ? sizeof(int16_t) : 1));
-            if (splines) {
-                warp_kernels_scalar.spline_row(outputs.expected, v + edge, fir, count, channels);
-                tested->spline_row(outputs.found, v + edge, fir, count, channels);
+            outputs_begin(&outputs, (size_t)count * (bytes ? 1 : sizeof(int16_t)));
+            if (bytes) {
+                warp_kernels_scalar.filter_row_bytes(outputs.expected, v + edge, fir, count, channels);
+                tested->filter_row_bytes(outputs.found, v + edge, fir, count, channels);
             } else {
-                warp_kernels_scalar.prefilter_row(outputs.expected, v + edge, fir, count, channels);
-                tested->prefilter_row(outputs.found, v + edge, fir, count, channels);
+                warp_kernels_scalar.filter_row(outputs.expected, v + edge, fir, count, channels);
+                tested->filter_row(outputs.found, v + edge, fir, count, channels);
             }
             outputs_compare(&outputs);
         }
@@ -102,39 +101,21 @@ static void take_memory(void)
         sums = fenced_new((MAX_BYTES + 2 * EDGE) * sizeof(int16_t));
 }
 
-void check_prefilter(const warp_kernels_t *tested)
+void check_filters(const warp_kernels_t *tested)
 {
-    static const int32_t ks_q16[] = {65600, 80000, 89784, 130000, 180000, 300000, 1 << 20, 64 << 16};
+    static const int32_t ks_q16[] = {65600, 80000, 89784, 180000, 300000, 64 << 16};
     static const char *const names[] = {"none", "gauss", "kaiser", "butter"};
     static fir_t fir;
     take_memory();
-    for (warp_filter_t filter = WARP_FILTER_GAUSS; filter <= WARP_FILTER_BUTTER; filter++) {
+    for (warp_filter_t filter = WARP_FILTER_NONE; filter <= WARP_FILTER_BUTTER; filter++) {
         for (size_t n = 0; n < sizeof ks_q16 / sizeof *ks_q16; n++) {
-            fir_design(&fir, filter, ks_q16[n]);
+            const bool splines = n % 2 == 1;
+            if (filter == WARP_FILTER_NONE && n != 1)
+                continue;
+            fir_design(&fir, filter, ks_q16[n], splines);
             check_columns(tested, &fir, names[filter]);
-            check_rows(tested, &fir, 0, names[filter]);
+            check_rows(tested, &fir, false, names[filter]);
+            check_rows(tested, &fir, true, names[filter]);
         }
     }
-}
-
-static fir_t seen;
-
-static void see_filter(int16_t *restrict v, const uint8_t *const *rows, const fir_t *fir, int32_t count)
-{
-    warp_kernels_scalar.prefilter_columns(v, rows, fir, count);
-    seen = *fir;
-}
-
-void check_spline_row(const warp_kernels_t *tested)
-{
-    static spline_t spline;
-    static uint8_t pixel;
-    const image_t picture = {&pixel, 1, 1, 1, IMAGE_GRAY8};
-    warp_kernels_t seeing = warp_kernels_scalar;
-    seeing.prefilter_columns = see_filter;
-    spline_begin(&spline);
-    spline_coefficients(&spline, &seeing, &picture, 0, 0);
-    take_memory();
-    check_columns(tested, &seen, "spline");
-    check_rows(tested, &seen, 1, "spline");
 }

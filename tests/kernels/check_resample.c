@@ -138,10 +138,10 @@ static void check_window(const warp_kernels_t *tested, const char *name, uint16_
     const int32_t *y =
         far ? fill_far_points(1, count, window.height, &window.y, rng) : fill_points(1, count, window.height, rng);
     resample_window_fn *expected, *found;
-    if (weights.spline) {
+    if (weights.of_coefficients) {
         window.coefficients = fenced_coefficients(&window.picture, rng);
-        expected = gray ? warp_kernels_scalar.spline_gray : warp_kernels_scalar.spline_xrgb;
-        found = gray ? tested->spline_gray : tested->spline_xrgb;
+        expected = gray ? warp_kernels_scalar.coefficients_gray : warp_kernels_scalar.coefficients_xrgb;
+        found = gray ? tested->coefficients_gray : tested->coefficients_xrgb;
     } else {
         if (count > 0 && rng_int(rng, 0, 1))
             fill_worst(&window, x[0], y[0], (int)rng_int(rng, 0, 1));
@@ -157,12 +157,13 @@ static void check_window(const warp_kernels_t *tested, const char *name, uint16_
 }
 
 /* Every side along either axis, small ones against one another; plain interpolators have but side 0. */
-static void check_table(const warp_kernels_t *tested, const char *name, warp_resampler_t resampler)
+static void check_table(const warp_kernels_t *tested, const char *name, warp_resampler_t resampler,
+                        bool of_coefficients)
 {
     enum { PLAIN_CASES = 1500, CASES_PER_SIDE = 8, SMALL_SIDES = 200, SMALL_CASES = 1500 };
     rng_t rng = {(uint64_t)resampler};
     take_memory();
-    window_weights_init(&weights, resampler);
+    window_weights_init(&weights, resampler, of_coefficients);
     for (int n = 0; n < PLAIN_CASES; n++)
         check_window(tested, name, 0, 0, &rng);
     if (!warp_averages(resampler))
@@ -178,14 +179,16 @@ static void check_table(const warp_kernels_t *tested, const char *name, warp_res
 
 void check_windows(const warp_kernels_t *tested)
 {
-    check_table(tested, "linear", WARP_LINEAR);
-    check_table(tested, "cubic", WARP_CUBIC);
-    check_table(tested, "area", WARP_AREA);
-    check_table(tested, "mean+cubic", WARP_MEAN_CUBIC);
+    check_table(tested, "linear", WARP_LINEAR, false);
+    check_table(tested, "cubic", WARP_CUBIC, false);
+    check_table(tested, "area", WARP_AREA, false);
+    check_table(tested, "mean+cubic", WARP_MEAN_CUBIC, false);
 }
 
-void check_splines(const warp_kernels_t *tested)
+void check_coefficients(const warp_kernels_t *tested)
 {
-    check_table(tested, "spline", WARP_SPLINE);
-    check_table(tested, "mean+spline", WARP_MEAN_SPLINE);
+    check_table(tested, "filtered linear", WARP_LINEAR, true);
+    check_table(tested, "filtered cubic", WARP_CUBIC, true);
+    check_table(tested, "spline", WARP_SPLINE, true);
+    check_table(tested, "mean+spline", WARP_MEAN_SPLINE, true);
 }
