@@ -9,12 +9,13 @@
 #include "firmware/room.h"
 #include "hal/hal_board.h"
 
-enum { FAILED = 1, BAD_USAGE = 2, KEY_CAN = 256, KEY_CAMERA, KEY_DISPLAY };
+enum { FAILED = 1, BAD_USAGE = 2, KEY_CAN = 256, KEY_CAMERA, KEY_DISPLAY, KEY_KERNELS };
 
 typedef struct {
     const char *room;
     int32_t node; /**< 0: not given */
     board_table_t devices;
+    const warp_kernels_t *kernels;
 } options_t;
 
 static const struct argp_option option_table[] = {
@@ -22,6 +23,7 @@ static const struct argp_option option_table[] = {
     {"can", KEY_CAN, "NAME", 0, "Bus, in place of the board's own", 0},
     {"camera", KEY_CAMERA, "NAME", 0, "Video source, in place of the board's own", 0},
     {"display", KEY_DISPLAY, "NAME", 0, "Display, in place of the board's own", 0},
+    {"kernels", KEY_KERNELS, "LEVEL", 0, "Pixel loops: scalar or neon, of the same bytes (default: the fastest)", 0},
     {0},
 };
 
@@ -53,6 +55,11 @@ static error_t read_option(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_DISPLAY:
         options->devices.display = text;
+        return 0;
+    case KEY_KERNELS:
+        options->kernels = warp_kernels_from_name(text);
+        if (options->kernels == NULL)
+            argp_error(state, "--kernels: found \"%s\", expected scalar or neon", text);
         return 0;
     case ARGP_KEY_ARG:
         if (state->arg_num > 0)
@@ -94,10 +101,11 @@ static bool open_board(hal_board_t *devices, const options_t *options, const roo
     return false;
 }
 
-static void run(const room_t *room, const room_board_t *board, const hal_board_t *devices)
+static void run(const room_t *room, const room_board_t *board, const hal_board_t *devices,
+                const warp_kernels_t *kernels)
 {
     static projector_t projector;
-    projector_init(&projector, room, board, devices, &warp_kernels_scalar);
+    projector_init(&projector, room, board, devices, kernels);
     while (!stop_requested) {
         projector_step(&projector);
         if (hal_display_wait_vblank(devices->display) != HAL_OK) {
@@ -118,7 +126,7 @@ int main(int argc, char **argv)
                "SIGTERM. Exit status: 0 done, 1 failed, 2 bad usage.",
     };
     static room_t room;
-    options_t options = {.devices = board_table};
+    options_t options = {.devices = board_table, .kernels = warp_kernels_best()};
     char error[ROOM_MESSAGE_LENGTH];
     hal_board_t devices;
     argp_err_exit_status = BAD_USAGE;
@@ -137,7 +145,7 @@ int main(int argc, char **argv)
         return FAILED;
     signal(SIGINT, request_stop);
     signal(SIGTERM, request_stop);
-    run(&room, board, &devices);
+    run(&room, board, &devices, options.kernels);
     hal_board_close(&devices);
     return 0;
 }

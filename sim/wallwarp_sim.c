@@ -19,6 +19,7 @@ enum {
     KEY_OUT,
     KEY_FRAMES,
     KEY_METHOD,
+    KEY_KERNELS,
     KEY_RATE,
     KEY_ORIGINAL,
     KEY_JUDGE,
@@ -55,6 +56,14 @@ static double read_rate(struct argp_state *state, const char *text)
     return rate;
 }
 
+static const warp_kernels_t *read_kernels(struct argp_state *state, const char *text)
+{
+    const warp_kernels_t *kernels = warp_kernels_from_name(text);
+    if (kernels == NULL)
+        argp_error(state, "--kernels: found \"%s\", expected scalar or neon", text);
+    return kernels;
+}
+
 static const warp_method_t *read_method(struct argp_state *state, const char *text)
 {
     const warp_method_t *method = warp_method_from_name(text);
@@ -87,6 +96,7 @@ static const struct argp_option run_options[] = {
     {"rate", KEY_RATE, "HZ", 0, "Refresh rate (default: the list's own up to 60, or 60)", 0},
     {"original", KEY_ORIGINAL, "PNG", 0, "A finer original of the picture, to judge by as well", 0},
     {"judge", KEY_JUDGE, "N", 0, "Judge every Nth frame, 0 none (default: 8 frames of the run)", 0},
+    {"kernels", KEY_KERNELS, "LEVEL", 0, "Pixel loops: scalar or neon, of the same bytes (default: the fastest)", 0},
     {0},
 };
 
@@ -111,6 +121,9 @@ static error_t read_run(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_METHOD:
         run->method = read_method(state, text);
+        return 0;
+    case KEY_KERNELS:
+        run->kernels = read_kernels(state, text);
         return 0;
     case KEY_RATE:
         run->rate_hz = read_rate(state, text);
@@ -155,6 +168,7 @@ typedef struct {
     warp_once_place_t place;
     const char *in, *out;
     const warp_method_t *method;
+    const warp_kernels_t *kernels; /**< NULL: the fastest */
 } warp_options_t;
 
 static const struct argp_option warp_options[] = {
@@ -163,6 +177,7 @@ static const struct argp_option warp_options[] = {
     {"in", KEY_IN, "PNG", 0, "Picture of the camera's size; needed", 0},
     {"out", KEY_OUT, "PNG", 0, "What the projector must show; needed", 0},
     {"method", KEY_METHOD, "M", 0, "Method, in place of the board's own", 0},
+    {"kernels", KEY_KERNELS, "LEVEL", 0, "Pixel loops: scalar or neon, of the same bytes (default: the fastest)", 0},
     {0},
 };
 
@@ -184,6 +199,9 @@ static error_t read_warp(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_METHOD:
         warp->method = read_method(state, text);
+        return 0;
+    case KEY_KERNELS:
+        warp->kernels = read_kernels(state, text);
         return 0;
     case ARGP_KEY_ARG:
         return read_room(&warp->place.room, text, state);
@@ -226,6 +244,8 @@ static int warp_command(int argc, char **argv)
         return PROGRAM_BAD_USAGE;
     int status = (int)warp_once_open(&once, &options.place, program_warn, error);
     if (status == PROGRAM_DONE) {
+        if (options.kernels != NULL)
+            once.kernels = options.kernels;
         status = warp_picture(&once, &options, error) ? PROGRAM_DONE : PROGRAM_FAILED;
         warp_once_close(&once);
     }

@@ -2,8 +2,11 @@
 // The table of pixel loops.
 #include "warp_fixed/kernels.h"
 
+#include <stddef.h>
+
 #include "warp_fixed/kernels_neon.h"
 #include "warp_fixed/kernels_scalar.h"
+#include "warp_fixed/same_text.h"
 
 const warp_kernels_t warp_kernels_scalar = {
     .name = "scalar",
@@ -46,4 +49,12 @@ const warp_kernels_t *const warp_kernels_levels[WARP_KERNELS_LEVELS] = {&warp_ke
 const warp_kernels_t *warp_kernels_best(void)
 {
     return warp_kernels_levels[WARP_KERNELS_LEVELS - 1];
+}
+
+const warp_kernels_t *warp_kernels_from_name(const char *name)
+{
+    for (int level = 0; level < WARP_KERNELS_LEVELS; level++)
+        if (same_text(warp_kernels_levels[level]->name, name))
+            return warp_kernels_levels[level];
+    return NULL;
 }

@@ -152,4 +152,7 @@ extern const warp_kernels_t *const warp_kernels_levels[WARP_KERNELS_LEVELS];
 /** @return The fastest level that this build has. */
 const warp_kernels_t *warp_kernels_best(void);
 
+/** @return The level of that name, or NULL. */
+const warp_kernels_t *warp_kernels_from_name(const char *name);
+
 #endif

@@ -4,6 +4,8 @@
 
 #include <stddef.h>
 
+#include "warp_fixed/same_text.h"
+
 const warp_method_t warp_methods[WARP_METHODS] = {
     {"none+nearest", WARP_FILTER_NONE, WARP_NEAREST},
     {"none+linear", WARP_FILTER_NONE, WARP_LINEAR},
@@ -27,15 +29,6 @@ const warp_method_t warp_methods[WARP_METHODS] = {
     {"mean+spline", WARP_FILTER_NONE, WARP_MEAN_SPLINE},
     {"mean+cubic", WARP_FILTER_NONE, WARP_MEAN_CUBIC},
 };
-
-static bool same_text(const char *a, const char *b)
-{
-    while (*a != '\0' && *a == *b) {
-        a++;
-        b++;
-    }
-    return *a == *b;
-}
 
 const warp_method_t *warp_method_from_name(const char *name)
 {

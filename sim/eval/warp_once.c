@@ -57,7 +57,8 @@ static warp_once_status_t see_walls(warp_once_t *wall, int32_t walls, const room
             say(error, "--pose %.200s: the quaternion is zero, expected one of unit length", place->pose);
             return WARP_ONCE_BAD_USAGE;
         }
-        wall[n] = (warp_once_t){.camera = room->camera, .board = first[n], .homography = homography};
+        wall[n] = (warp_once_t){
+            .camera = room->camera, .board = first[n], .homography = homography, .kernels = warp_kernels_best()};
     }
     return WARP_ONCE_OK;
 }
@@ -156,5 +157,5 @@ bool warp_once(warp_once_t *once, const warp_method_t *method, const image_t *pa
     warp_init(once->warp, method != NULL ? *method : *once->board.method, once->board.step_all,
               picture->format == IMAGE_GRAY8 ? gray : rgb);
     warp_set_ls_weights(once->warp, &once->board.ls_weights);
-    return warp_frame(once->warp, &warp_kernels_scalar, NULL, &once->homography, panel, picture);
+    return warp_frame(once->warp, once->kernels, NULL, &once->homography, panel, picture);
 }

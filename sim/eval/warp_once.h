@@ -19,7 +19,8 @@ typedef struct {
     camera_t camera;
     room_board_t board;
     homography_t homography;
-    warp_t *warp; /**< of the last method used */
+    warp_t *warp;                  /**< of the last method used */
+    const warp_kernels_t *kernels; /**< the fastest; may be changed */
 } warp_once_t;
 
 /** Which wall, seen from where: as on a command line. */

@@ -105,6 +105,7 @@ static bool open_world(run_t *run)
         .room = &run->room,
         .video = run->video,
         .method = run->options->method,
+        .kernels = run->options->kernels,
         .real = is_real(run),
         .start_us = run->loop.start_us,
         .refresh = run->loop.refresh,

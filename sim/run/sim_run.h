@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <stdint.h>
 
+#include "warp_fixed/kernels.h"
 #include "warp_fixed/method.h"
 
 enum { SIM_RUN_JUDGE_USUAL = -1, SIM_RUN_NO_BUS = -1, SIM_RUN_MAX_FRAMES = 1000000 };
@@ -13,14 +14,15 @@ enum { SIM_RUN_JUDGE_USUAL = -1, SIM_RUN_NO_BUS = -1, SIM_RUN_MAX_FRAMES = 10000
 /** As on the command line. */
 typedef struct {
     const char *room, *video;
-    const char *poses;           /**< pose list: virtual time; NULL with a port */
-    int bus_port;                /**< 0 (any free one) to 65535: real time; SIM_RUN_NO_BUS with a pose list */
-    const char *out;             /**< folder; made if it is missing; run_clean() deletes what a run before has left */
-    int32_t frames;              /**< 0: as long as the list, or until *stop */
-    const warp_method_t *method; /**< of every board; NULL for the room's */
-    double rate_hz;              /**< refresh; 0: the list's own rate up to 60 Hz, or 60 Hz */
-    const char *original;        /**< PNG, q times as wide and high as the camera's picture; NULL for none */
-    int32_t judge;               /**< measure PSNR of every so many frames; 0 none; SIM_RUN_JUDGE_USUAL: 8 of the run */
+    const char *poses;             /**< pose list: virtual time; NULL with a port */
+    int bus_port;                  /**< 0 (any free one) to 65535: real time; SIM_RUN_NO_BUS with a pose list */
+    const char *out;               /**< folder; made if it is missing; run_clean() deletes what a run before has left */
+    int32_t frames;                /**< 0: as long as the list, or until *stop */
+    const warp_method_t *method;   /**< of every board; NULL for the room's */
+    const warp_kernels_t *kernels; /**< of every board; NULL for the fastest */
+    double rate_hz;                /**< refresh; 0: the list's own rate up to 60 Hz, or 60 Hz */
+    const char *original;          /**< PNG, q times as wide and high as the camera's picture; NULL for none */
+    int32_t judge; /**< measure PSNR of every so many frames; 0 none; SIM_RUN_JUDGE_USUAL: 8 of the run */
 } sim_run_options_t;
 
 /**

@@ -68,7 +68,8 @@ static bool open_node(sim_world_t *world, int32_t index, char error[FILE_ERROR_L
     node->projector = calloc(1, sizeof *node->projector);
     if (node->projector == NULL)
         return file_error(error, board.name, "out of memory: a projector takes %zu MB", sizeof(projector_t) >> 20);
-    projector_init(node->projector, room, &board, &node->devices, &warp_kernels_scalar);
+    const warp_kernels_t *kernels = world->config.kernels != NULL ? world->config.kernels : warp_kernels_best();
+    projector_init(node->projector, room, &board, &node->devices, kernels);
     return true;
 }
 

@@ -18,13 +18,14 @@ typedef struct sim_world sim_world_t;
 enum { SIM_WORLD_WATCHDOG_US = 2000000 };
 
 typedef struct {
-    const room_t *room;          /**< must outlive the world */
-    video_t *video;              /**< what every camera plays; must outlive the world */
-    const warp_method_t *method; /**< of every board, in place of the room's; NULL for the room's */
-    bool real;                   /**< clocks run by themselves (CLOCK_MONOTONIC); else in virtual time */
-    int64_t start_us;            /**< now, when the world begins: the cameras' first picture */
-    sim_rate_t refresh;          /**< vertical blanks of all displays; beat 0 is after start_us */
-    uint64_t seed;               /**< of everything random, when faults are asked for */
+    const room_t *room;            /**< must outlive the world */
+    video_t *video;                /**< what every camera plays; must outlive the world */
+    const warp_method_t *method;   /**< of every board, in place of the room's; NULL for the room's */
+    const warp_kernels_t *kernels; /**< of every board; NULL for the fastest */
+    bool real;                     /**< clocks run by themselves (CLOCK_MONOTONIC); else in virtual time */
+    int64_t start_us;              /**< now, when the world begins: the cameras' first picture */
+    sim_rate_t refresh;            /**< vertical blanks of all displays; beat 0 is after start_us */
+    uint64_t seed;                 /**< of everything random, when faults are asked for */
 } sim_world_config_t;
 
 /**

@@ -38,7 +38,7 @@ void study_warp_begin(warp_t *warp, const warp_method_t *method)
 
 void study_warp_frame(warp_t *warp, const homography_t *homography, const image_t *picture, const image_t *panel)
 {
-    const bool made = warp_frame(warp, &warp_kernels_scalar, NULL, homography, panel, picture);
+    const bool made = warp_frame(warp, warp_kernels_best(), NULL, homography, panel, picture);
     assert(made);
     (void)made;
 }

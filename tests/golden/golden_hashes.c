@@ -96,9 +96,7 @@ static void print_fits(void)
 
 int main(int argc, char **argv)
 {
-    for (int level = 0; argc == 2 && level < WARP_KERNELS_LEVELS; level++)
-        if (strcmp(argv[1], warp_kernels_levels[level]->name) == 0)
-            kernels = warp_kernels_levels[level];
+    kernels = warp_kernels_from_name(argc == 2 ? argv[1] : "");
     if (kernels == NULL) {
         fprintf(stderr, "golden_hashes: expected scalar or neon\n");
         return 2;
