@@ -31,7 +31,7 @@ test_virtual_runs() {
             "$out/frames.csv"
         check "$kind run: frame n uses pose n" $?
         for frame in 0 4 9; do
-            same_as_warp "$out" "$frame" front && same_as_warp "$out" "$frame" left
+            same_as_warp "$out" "$frame" front && same_as_warp "$out" "$frame" left --kernels scalar
             check "$kind run: frame $frame is what warp makes" $?
         done
         awk -F, 'NR > 1 && !($3 > 15 && $3 <= $4 && $4 < 60 && $5 == "") { bad = 1 } END { exit bad || NR < 9 }' \
@@ -71,7 +71,7 @@ test_options() {
     run "$scratch/fd.yaml" --video $picture --poses "$scratch/ten.csv" --out "$scratch/fast" --rate 60 --frames 84 \
         --method none+nearest --original tests/images/studio_1920x1080.png --judge 9
     check "rate, frames, method, original, judge" $?
-    same_as_warp "$scratch/fast" 8 front --method none+nearest
+    same_as_warp "$scratch/fast" 8 front --method none+nearest --kernels neon
     check "--method is every board's" $?
     awk -F, '$1 == 83 { print $4 }' "$scratch/fast/frames.csv" | grep -q safe &&
         awk -F, '$1 == 40 { print $4 }' "$scratch/fast/frames.csv" | grep -q holding
@@ -137,6 +137,7 @@ test_firmware() {
     refuses 2 "--node" "$build/wallwarp" "$scratch/fd.yaml"
     refuses 2 "1 to 63" "$build/wallwarp" "$scratch/fd.yaml" --node 64
     refuses 2 "1 to 63" "$build/wallwarp" "$scratch/fd.yaml" --node 1x
+    refuses 2 "scalar or neon" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --kernels sse
     refuses 2 "one room file" "$build/wallwarp" "$scratch/fd.yaml" "$scratch/fd.yaml" --node 1
     refuses 1 "no board has node 9" "$build/wallwarp" "$scratch/fd.yaml" --node 9
     refuses 1 "missing.yaml" "$build/wallwarp" "$scratch/missing.yaml" --node 1
@@ -149,6 +150,7 @@ test_bad_runs() {
     set -- "$build/wallwarp-sim" run "$scratch/fd.yaml" --out "$scratch/bad"
     refuses 2 "expected run or warp" "$build/wallwarp-sim" runs
     refuses 2 "Usage" "$build/wallwarp-sim"
+    refuses 2 "scalar or neon" "$@" --kernels NEON
     refuses 2 "--video" "$@" --poses "$scratch/ten.csv"
     refuses 2 "either --poses CSV or --bus PORT" "$@" --video pattern
     refuses 2 "either --poses CSV or --bus PORT" "$@" --video pattern --poses "$scratch/ten.csv" --bus 0
