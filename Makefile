@@ -31,8 +31,8 @@ TESTS_C    := $(wildcard tests/*/test_*.c tests/*/*/test_*.c)
 objects = $(patsubst %,$(BUILD)/obj/%.o,$(1))
 TESTS   := $(patsubst tests/%.c,$(BUILD)/tests/%,$(TESTS_C))
 SUPPORT_C := $(wildcard tests/support/*.c)
-# Programs that the scripts among the tests run.
-HELPERS := $(BUILD)/tests/sim/bus/serve_bus $(BUILD)/tests/firmware/print_frames
+# Programs that the scripts among the tests run, and a plugin for one of them.
+HELPERS := $(BUILD)/tests/sim/bus/serve_bus $(BUILD)/tests/firmware/print_frames $(BUILD)/count_plugin.so
 
 .PHONY: all programs
 all: setup-demo ## Build the firmware and the tools for this machine into build/host
@@ -40,8 +40,8 @@ all: setup-demo ## Build the firmware and the tools for this machine into build/
 programs: $(PROGRAMS:%=$(BUILD)/%)
 
 # Install what is missing, once: see board/setup.sh.
-.PHONY: setup-demo setup-test
-setup-demo setup-test:
+.PHONY: setup-demo setup-test setup-bench
+setup-demo setup-test setup-bench:
 	$(Q)board/setup.sh $(@:setup-%=%)
 
 .PHONY: demo
@@ -145,6 +145,28 @@ sanitize: setup-test ## Run the unit tests again with the address and undefined-
 .PHONY: run-unit-tests
 run-unit-tests: $(TESTS) $(CHECK_KERNELS)
 	$(Q)tests/run.sh $(BUILD)/test-logs $(foreach t,$(TESTS) $(CHECK_KERNELS),'$(t)')
+
+# --- benchmarks ------------------------------------------------------------------------------------------------------
+
+$(BUILD)/count_plugin.so: $(call objects,tests/bench/count_plugin.c)
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -shared -o $@ $^
+$(BUILD)/obj/tests/bench/count_plugin.c.o: CFLAGS += -fPIC -fvisibility=hidden
+$(BUILD)/bench_arm: $(call objects,tests/bench/bench_arm.c tests/bench/markers.c) $(BUILD)/libwarp.a
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+
+# Everything but the CSV goes to stderr. BASELINE=new makes these counts the ones that later runs are held to.
+ARM      := build/variants/aarch64-linux-gnu-gcc-O3
+KERNELS  := scalar
+BASELINE := tests/bench/baseline.csv
+.PHONY: bench-arm
+bench-arm: setup-bench ## Count the instructions and A72 cycles of each pixel as CSV; fail if more than the baseline
+	$(Q)$(MAKE) --no-print-directory $(BUILD)/count_plugin.so >&2
+	$(Q)$(MAKE) --no-print-directory BUILD=$(ARM) CC=aarch64-linux-gnu-gcc OPT=-O3 LDFLAGS=-static $(ARM)/bench_arm >&2
+	$(Q)tests/bench/test_count_plugin.sh $(BUILD) >&2
+	$(Q)tests/bench/check_a72_cycles.sh $(BUILD) >&2
+	$(Q)tests/bench/bench_arm.sh $(BUILD)/count_plugin.so $(ARM)/bench_arm build/bench $(KERNELS) $(BASELINE)
 
 # --- fuzzing ---------------------------------------------------------------------------------------------------------
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Installs the packages that this tree needs and this machine lacks: board/setup.sh [demo|test]
+# Installs the packages that this tree needs and this machine lacks: board/setup.sh [demo|test|bench]
 set -u
 
 packages_file=$(dirname "$0")/host/packages
@@ -47,7 +47,8 @@ find_right() {
 go_on_without_apt() {
     say "this is no Debian system; it needs what Debian calls: $*"
     tools='gcc make gnuplot'
-    [ "$group" = test ] && tools="$tools clang aarch64-linux-gnu-gcc qemu-aarch64 python3"
+    [ "$group" != demo ] && tools="$tools clang aarch64-linux-gnu-gcc qemu-aarch64 python3"
+    [ "$group" = bench ] && tools="$tools llvm-objdump llvm-mca"
     for tool in $tools; do
         command -v "$tool" >/dev/null || fail "$tool is not here: install it and the others with this system's own tools"
     done
@@ -73,11 +74,12 @@ install_packages() {
 }
 
 group=${1-test}
-[ $# -le 1 ] || fail "expected one argument at most: demo or test"
+[ $# -le 1 ] || fail "expected one argument at most: demo, test or bench"
 case $group in
 demo) needed=$(packages_of demo) ;;
 test) needed=$(packages_of demo test) ;;
-*) fail "unknown argument '$group', expected demo or test" ;;
+bench) needed=$(packages_of demo test bench) ;;
+*) fail "unknown argument '$group', expected demo, test or bench" ;;
 esac
 [ -n "$needed" ] || fail "$packages_file lists no packages"
 

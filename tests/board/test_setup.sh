@@ -142,6 +142,17 @@ exits 0
 said 'setup: installing: make clang'
 did 'Timeout=300 make clang'
 
+name='root, benchmarks'
+machine 0 none
+have_all_but llvm
+run test
+exits 0
+did_nothing
+run bench
+exits 0
+said 'setup: installing: llvm'
+did 'Timeout=300 llvm'
+
 name='sudo without a password'
 machine 1000 free
 run demo
@@ -221,6 +232,14 @@ run test
 exits 1
 said 'clang is not here'
 
+name='no Debian, a benchmark tool missing'
+for tool in clang aarch64-linux-gnu-gcc qemu-aarch64 python3; do make_tool $tool ''; done
+run test
+exits 0
+run bench
+exits 1
+said 'llvm-objdump is not here'
+
 name='no Debian, no compiler'
 remove_tool gcc
 run demo
@@ -238,10 +257,10 @@ name='wrong arguments'
 machine 0 none
 run everything
 exits 1
-said "unknown argument 'everything', expected demo or test"
+said "unknown argument 'everything', expected demo, test or bench"
 run demo test
 exits 1
-said 'expected one argument at most'
+said 'expected one argument at most: demo, test or bench'
 did_nothing
 
 echo "$passed passed, $failed failed"
