@@ -158,7 +158,7 @@ $(BUILD)/bench_arm: $(call objects,tests/bench/bench_arm.c tests/bench/markers.c
 
 # Everything but the CSV goes to stderr. BASELINE=new makes these counts the ones that later runs are held to.
 ARM      := build/variants/aarch64-linux-gnu-gcc-O3
-KERNELS  := scalar
+KERNELS  := neon
 BASELINE := tests/bench/baseline.csv
 .PHONY: bench-arm
 bench-arm: setup-bench ## Count the instructions and A72 cycles of each pixel as CSV; fail if more than the baseline

@@ -6,7 +6,8 @@
 // Picture and panel are 1920 x 1080; the poses are two homographies that others have been measured with. What is
 // between the markers:
 //   grid            grid_from_homography(), then grid_block() and the points of every lit pixel, stored;
-//   gauss, kaiser   prefilter_picture() of the picture with 7 taps, known before. Kaiser's filter is never as short as
+//   gauss, kaiser   prefilter_coefficients() of the picture with 7 taps, known before. Kaiser's filter is never as
+//   short as
 //                   that: it is given weights by hand, negative ones among them;
 //   all others      warp_frame() of the method. bench_arm.sh leaves parts of it out, but not for frame:*.
 #include <math.h>
@@ -14,8 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/bench/markers.h"
 #include "tests/support/rng.h"
+#include "tests/bench/markers.h"
 #include "warp_fixed/warp.h"
 
 enum { WIDTH = 1920, HEIGHT = 1080, SEVEN_TAPS_RADIUS = 3, SEVEN_TAPS_K_Q16 = 3 << 16 };
@@ -42,14 +43,6 @@ typedef struct {
 } bench_format_t;
 
 static const bench_format_t formats[] = {{"gray", IMAGE_GRAY8}, {"xrgb", IMAGE_XRGB8888}};
-
-typedef struct {
-    const char *name;
-    const warp_kernels_t *table;
-} bench_kernels_t;
-
-/* count_case.sh expects the grid_points loop of a table to be called grid_points_NAME. */
-static const bench_kernels_t kernel_tables[] = {{"scalar", &warp_kernels_scalar}};
 
 typedef struct {
     const char *name;
@@ -137,20 +130,20 @@ static void run_grid(const warp_kernels_t *kernels, const homography_t *homograp
 static bool run_prefilter(const warp_kernels_t *kernels, const image_t *picture, warp_filter_t filter)
 {
     prefilter_t *prefilter = &warp.prefilter;
-    prefilter->filter = filter;
-    prefilter->k_q16 = SEVEN_TAPS_K_Q16;
-    fir_design(&prefilter->fir, WARP_FILTER_GAUSS, SEVEN_TAPS_K_Q16);
+    prefilter->kind = (prefilter_kind_t){filter, SEVEN_TAPS_K_Q16, false};
+    fir_design(&prefilter->fir, WARP_FILTER_GAUSS, SEVEN_TAPS_K_Q16, false);
     if (prefilter->fir.radius != SEVEN_TAPS_RADIUS)
         return false;
     if (filter == WARP_FILTER_KAISER) {
-        const int16_t first[] = {50, 36, 6, -3}, second[] = {12797, 9216, 1536, -767};
-        memcpy(prefilter->fir.first, first, sizeof first);
-        memcpy(prefilter->fir.second, second, sizeof second);
+        const int16_t weight[] = {6398, 4608, 768, -383};
+        memcpy(prefilter->fir.weight, weight, sizeof weight);
     }
+    if (!prefilter_begin(prefilter, filter, SEVEN_TAPS_K_Q16, false))
+        return false;
     bench_begin();
-    const image_t filtered = prefilter_picture(prefilter, kernels, picture, filter, SEVEN_TAPS_K_Q16);
+    const coefficients_t filtered = prefilter_coefficients(prefilter, kernels, picture, 0, 0);
     bench_end();
-    return filtered.data != picture->data;
+    return filtered.width == picture->width;
 }
 
 static bool run_frame(const warp_kernels_t *kernels, const homography_t *homography, const image_t *picture,
@@ -177,8 +170,11 @@ int main(int argc, char **argv)
     const bench_case_t *work = find("case", argv[1], cases, sizeof cases / sizeof *cases, sizeof *cases);
     const bench_format_t *format = find("format", argv[2], formats, sizeof formats / sizeof *formats, sizeof *formats);
     const bench_pose_t *pose = find("pose", argv[3], poses, sizeof poses / sizeof *poses, sizeof *poses);
-    const bench_kernels_t *kernels = find("table of kernels", argv[4], kernel_tables,
-                                          sizeof kernel_tables / sizeof *kernel_tables, sizeof *kernel_tables);
+    const warp_kernels_t *kernels = warp_kernels_from_name(argv[4]);
+    if (kernels == NULL) {
+        fprintf(stderr, "bench_arm: no kernels are called %s\n", argv[4]);
+        return 2;
+    }
 
     const int32_t channels = (int32_t)format->format;
     const image_t picture = {picture_bytes, WIDTH, HEIGHT, WIDTH * channels, format->format};
@@ -186,11 +182,11 @@ int main(int argc, char **argv)
     paint(picture_bytes, channels);
     bool made = true;
     if (work->method != NULL)
-        made = run_frame(kernels->table, &homography, &picture, work->method);
+        made = run_frame(kernels, &homography, &picture, work->method);
     else if (work->filter != WARP_FILTER_NONE)
-        made = run_prefilter(kernels->table, &picture, work->filter);
+        made = run_prefilter(kernels, &picture, work->filter);
     else
-        run_grid(kernels->table, &homography);
+        run_grid(kernels, &homography);
     if (!made) {
         fprintf(stderr, "bench_arm: the work was not done\n");
         return 1;

@@ -26,8 +26,8 @@ fail() {
 left_out() {
     case $case in
     grid | gauss | kaiser | frame:*) ;;
-    *) echo "grid_from_homography grid_block grid_block_end grid_points_$kernels prefilter_picture" \
-        "spline_coefficients ls_axis_update" ;;
+    *) echo "grid_from_homography grid_block grid_block_end grid_points_$kernels prefilter_begin" \
+        "prefilter_pixels prefilter_coefficients ls_axis_update" ;;
     esac
 }
 
