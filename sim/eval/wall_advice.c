@@ -180,6 +180,7 @@ static bool open_scene(scene_t *scene, const wall_advice_t *advice, const camera
     warp_once_t *once = &scene->view[0].once;
     once->camera = small_camera(camera, scale);
     once->board = *advice->board;
+    once->kernels = warp_kernels_best();
     once->board.wall = small_wall(advice->board, scale);
     small_weights(once->board.ls_weights.x, once->camera.width, advice->board->ls_weights.x, camera->width);
     small_weights(once->board.ls_weights.y, once->camera.height, advice->board->ls_weights.y, camera->height);

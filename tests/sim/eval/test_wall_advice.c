@@ -107,7 +107,8 @@ static void check_gaps(double eye_mm[1][3], int32_t factor)
 
     image_t picture, original, panel, limit;
     assert_true(leaves_picture(camera.width, camera.height, ADVICE_FINER, &picture, &original));
-    warp_once_t once = {.camera = camera, .board = board, .warp = malloc(sizeof *once.warp)};
+    warp_once_t once = {
+        .camera = camera, .board = board, .kernels = warp_kernels_best(), .warp = malloc(sizeof *once.warp)};
     assert_non_null(once.warp);
     assert_true(homography_from_pose(&once.homography, &camera, &board.wall, &advice.pose[0]));
     assert_true(warp_once_panel(&once, IMAGE_GRAY8, &panel) && warp_once_panel(&once, IMAGE_GRAY8, &limit));
