@@ -5,6 +5,7 @@
 #include "warp_fixed/kernels_neon.h"
 #include "warp_fixed/kernels_scalar.h"
 #include "warp_fixed/window_place_neon.h"
+#include "warp_fixed/window_sums_neon.h"
 
 enum { LANES = 8, SHIFT = COEFFICIENT_SUM_LOG2 + COEFFICIENT_BITS, ROUNDING = 1 << (SHIFT - 1) };
 
@@ -33,26 +34,6 @@ static inline uint8x8_t pixels_from_sums(int32x4_t sums)
     return vqshrun_n_s16(vcombine_s16(high, high), SHIFT - 16);
 }
 
-static inline int32x4_t second_pass_xrgb(const int16_t *v, const int16_t *second, int32_t taps)
-{
-    int32x4_t sums = vdupq_n_s32(0);
-    for (int32_t u = 0; u < taps; u++)
-        sums = vmlal_n_s16(sums, vld1_s16(v + 4 * u), second[u]);
-    return sums;
-}
-
-/* Four sums to be added up. v is 0 beyond the window, where weights of other rows stand. */
-static inline int32x4_t second_pass_gray(const int16_t *v, const int16_t *second, int32_t taps)
-{
-    int32x4_t sums = vdupq_n_s32(0);
-    for (int32_t u = 0; u < taps; u += LANES) {
-        const int16x8_t values = vld1q_s16(v + u), weights = vld1q_s16(second + u);
-        sums = vmlal_s16(sums, vget_low_s16(values), vget_low_s16(weights));
-        sums = vmlal_s16(sums, vget_high_s16(values), vget_high_s16(weights));
-    }
-    return sums;
-}
-
 void resample_coefficients_xrgb_neon(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
                                      const int32_t *restrict y_q18, int32_t count)
 {
@@ -70,7 +51,7 @@ void resample_coefficients_xrgb_neon(uint8_t *restrict out, const window_t *wind
         for (int i = 0; i < PLACE_STEP; i++) {
             const int16_t *corner = window->coefficients.data + place_begin(&places, window, i, stride, 4);
             first_pass(v, corner, stride, window->y.first + places.phase_y[i] * ny, ny, 4 * nx);
-            const int32x4_t sums = second_pass_xrgb(v, window->x.second + places.phase_x[i] * nx, nx);
+            const int32x4_t sums = window_sums_xrgb(v, window->x.second + places.phase_x[i] * nx, nx, 0);
             const uint8x8_t pixel = pixels_from_sums(sums);
             memcpy(out + (ptrdiff_t)(k + i) * 4, &pixel, 4);
         }
@@ -97,7 +78,7 @@ void resample_coefficients_gray_neon(uint8_t *restrict out, const window_t *wind
             const int16_t *corner = window->coefficients.data + place_begin(&places, window, i, stride, 1);
             first_pass(v, corner, stride, window->y.first + places.phase_y[i] * ny, ny, nx);
             vst1q_s16(v + nx, vdupq_n_s16(0));
-            sums[i] = second_pass_gray(v, window->x.second + places.phase_x[i] * nx, nx);
+            sums[i] = window_sums_gray(v, window->x.second + places.phase_x[i] * nx, nx);
         }
         const uint8x8_t pixels =
             pixels_from_sums(vpaddq_s32(vpaddq_s32(sums[0], sums[1]), vpaddq_s32(sums[2], sums[3])));

@@ -8,6 +8,7 @@
 
 #include "warp_fixed/kernels_scalar.h"
 #include "warp_fixed/window_place_neon.h"
+#include "warp_fixed/window_sums_neon.h"
 
 enum { LANES = 8 };
 
@@ -49,26 +50,6 @@ static inline uint8x8_t pixel_from_sums(int32x4_t sums)
     return vqshrun_n_s16(vcombine_s16(high, high), SUM_SHIFT - 16);
 }
 
-static inline int32x4_t second_pass_xrgb(const int16_t *v, const int16_t *second, int32_t taps, int32_t start)
-{
-    int32x4_t sums = vdupq_n_s32(start);
-    for (int32_t u = 0; u < taps; u++)
-        sums = vmlal_n_s16(sums, vld1_s16(v + 4 * u), second[u]);
-    return sums;
-}
-
-/* v is 0 beyond the window, where weights of other rows stand. */
-static inline int32_t second_pass_gray(const int16_t *v, const int16_t *second, int32_t taps, int32_t start)
-{
-    int32x4_t sums = vdupq_n_s32(0);
-    for (int32_t u = 0; u < taps; u += LANES) {
-        const int16x8_t values = vld1q_s16(v + u), weights = vld1q_s16(second + u);
-        sums = vmlal_s16(sums, vget_low_s16(values), vget_low_s16(weights));
-        sums = vmlal_s16(sums, vget_high_s16(values), vget_high_s16(weights));
-    }
-    return start + vaddvq_s32(sums);
-}
-
 void resample_long_xrgb_neon(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
                              const int32_t *restrict y_q18, int32_t count)
 {
@@ -88,7 +69,7 @@ void resample_long_xrgb_neon(uint8_t *restrict out, const window_t *window, cons
             const uint8_t *texels = window->picture.data + place_begin(&places, window, i, stride, 4);
             first_pass(v, texels, stride, &window->y, window->y.first + places.phase_y[i] * ny, 4 * nx, offset.middle);
             const int16_t *second = window->x.second + places.phase_x[i] * nx;
-            const uint8x8_t pixel = pixel_from_sums(second_pass_xrgb(v, second, nx, offset.start));
+            const uint8x8_t pixel = pixel_from_sums(window_sums_xrgb(v, second, nx, offset.start));
             memcpy(out + (ptrdiff_t)(k + i) * 4, &pixel, 4);
         }
     }
@@ -115,7 +96,7 @@ void resample_long_gray_neon(uint8_t *restrict out, const window_t *window, cons
             first_pass(v, texels, stride, &window->y, window->y.first + places.phase_y[i] * ny, nx, offset.middle);
             vst1q_s16(v + nx, vdupq_n_s16(0));
             const int16_t *second = window->x.second + places.phase_x[i] * nx;
-            out[k + i] = pixel_from_sum(second_pass_gray(v, second, nx, offset.start));
+            out[k + i] = pixel_from_sum(offset.start + vaddvq_s32(window_sums_gray(v, second, nx)));
         }
     }
     resample_window_gray_scalar(out + k, window, x_q18 + k, y_q18 + k, count - k);

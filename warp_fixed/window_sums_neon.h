@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The second pass of a window of any length: weighed columns -> sums.
+#ifndef WARP_FIXED_WINDOW_SUMS_NEON_H
+#define WARP_FIXED_WINDOW_SUMS_NEON_H
+
+#include "warp_fixed/neon.h"
+
+/** @return start + sum(second * v) of the four channels; v has `taps` pixels of them. */
+static inline int32x4_t window_sums_xrgb(const int16_t *v, const int16_t *second, int32_t taps, int32_t start)
+{
+    int32x4_t sums = vdupq_n_s32(start);
+    for (int32_t u = 0; u < taps; u++)
+        sums = vmlal_n_s16(sums, vld1_s16(v + 4 * u), second[u]);
+    return sums;
+}
+
+/** @return Four sums to be added up. v is 0 beyond the window, where `second` has weights of other rows. */
+static inline int32x4_t window_sums_gray(const int16_t *v, const int16_t *second, int32_t taps)
+{
+    int32x4_t sums = vdupq_n_s32(0);
+    for (int32_t u = 0; u < taps; u += 8) {
+        const int16x8_t values = vld1q_s16(v + u), weights = vld1q_s16(second + u);
+        sums = vmlal_s16(sums, vget_low_s16(values), vget_low_s16(weights));
+        sums = vmlal_s16(sums, vget_high_s16(values), vget_high_s16(weights));
+    }
+    return sums;
+}
+
+#endif
