@@ -22,15 +22,29 @@
 typedef void grid_points_fn(int32_t *restrict x_q18, int32_t *restrict y_q18, const grid_quadratic_t *block,
                             int32_t count);
 
+enum {
+    PATCH_MAX_WIDTH = GRID_MAX_SPAN,
+    PATCH_MAX_HEIGHT = 16,
+    PATCH_SLACK_Q18 = 1 << (GRID_FRACTION_BITS - 6) /**< 1/64 px, and points err by less than 1/256 */
+};
+
 /**
- * Take the picture pixel under each point: floor of the point clamped to the picture.
+ * A rectangle of panel pixels, all of them lit, and the points where they fall in the picture.
  *
- * @param[out] out      count pixels of the picture's format.
- * @param      picture  The source.
- * @param      x_q18, y_q18  count points; clamped here to [0, width] and [0, height].
+ * Points are a grid's. A homography makes a convex quadrilateral of the rectangle, so no point is further left, right,
+ * up or down than those of the four corners, by more than PATCH_SLACK_Q18.
  */
-typedef void resample_nearest_fn(uint8_t *restrict out, const image_t *picture, const int32_t *restrict x_q18,
-                                 const int32_t *restrict y_q18, int32_t count);
+typedef struct {
+    uint8_t *out;                 /**< the first pixel, of the picture's format */
+    ptrdiff_t stride;             /**< bytes from a row of pixels to the next */
+    const int32_t *x_q18, *y_q18; /**< points of row r begin at r * PATCH_MAX_WIDTH */
+    int32_t width, height;        /**< 0 to PATCH_MAX_WIDTH, PATCH_MAX_HEIGHT */
+} patch_t;
+
+/**
+ * Take the picture pixel under each point: floor of the point clamped to the picture, [0, width] x [0, height].
+ */
+typedef void resample_nearest_fn(const patch_t *patch, const image_t *picture);
 
 /** Weights of a window along both axes, and where its texels are. */
 typedef struct {
@@ -38,7 +52,7 @@ typedef struct {
     image_t picture;             /**< at its level */
     coefficients_t coefficients; /**< of that picture; the spline_* loops read them instead */
     int32_t width, height;       /**< of level 0: points are clamped to it */
-    int level_x, level_y;        /**< a point is divided by 8^level */
+    int level_x, level_y;        /**< a point is divided by 8^level: 0 along short windows */
 } window_t;
 
 /**
@@ -46,12 +60,9 @@ typedef struct {
  *
  * v = (sum_y first * texel + half) >> first_shift for each column, out = pixel_from_sum(sum_x second * v), per channel.
  * The coefficients_* loops do the same on coefficients: out is sum_x second * v, rounded and clamped.
- *
- * @param[out] out      count pixels of the picture's format.
- * @param      x_q18, y_q18  count points; clamped here to the picture.
+ * Points are clamped here to the picture.
  */
-typedef void resample_window_fn(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
-                                const int32_t *restrict y_q18, int32_t count);
+typedef void resample_window_fn(const patch_t *patch, const window_t *window);
 
 enum { PREFILTER_MAX_RADIUS = 512 + 8 /**< of butter at the largest k, 64, with that of the spline */ };
 
@@ -115,13 +126,9 @@ typedef struct {
  * Evaluate the surface of eq 6 at each point.
  *
  * v = sum_x weight * coefficient for each of four rows, rounded to the coefficients' format; out = sum_y weight * v,
- * per channel, rounded half up and clamped to 0..255.
- *
- * @param[out] out      count pixels of the fitted picture's format.
- * @param      x_q18, y_q18  count points; clamped here to the picture.
+ * per channel, rounded half up and clamped to 0..255. Points are clamped here to the picture.
  */
-typedef void resample_ls_fn(uint8_t *restrict out, const ls_surface_t *surface, const int32_t *restrict x_q18,
-                            const int32_t *restrict y_q18, int32_t count);
+typedef void resample_ls_fn(const patch_t *patch, const ls_surface_t *surface);
 
 /** The loops of one CPU level. */
 typedef struct {

@@ -12,4 +12,14 @@
 #include <simde/arm/neon.h>
 #endif
 
+/** @return Four bytes, each of them in all lanes of one vector. */
+static inline uint8x16x4_t load_4_splats(const uint8_t *bytes)
+{
+#ifdef __aarch64__
+    return vld4q_dup_u8(bytes);
+#else
+    return (uint8x16x4_t){{vdupq_n_u8(bytes[0]), vdupq_n_u8(bytes[1]), vdupq_n_u8(bytes[2]), vdupq_n_u8(bytes[3])}};
+#endif
+}
+
 #endif

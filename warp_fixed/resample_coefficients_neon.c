@@ -34,8 +34,7 @@ static inline uint8x8_t pixels_from_sums(int32x4_t sums)
     return vqshrun_n_s16(vcombine_s16(high, high), SHIFT - 16);
 }
 
-void resample_coefficients_xrgb_neon(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
-                                     const int32_t *restrict y_q18, int32_t count)
+static void row_xrgb(uint8_t *out, const window_t *window, const int32_t *x_q18, const int32_t *y_q18, int32_t count)
 {
     const ptrdiff_t stride = (ptrdiff_t)window->coefficients.width * 4;
     const int32_t nx = window->x.taps, ny = window->y.taps;
@@ -45,22 +44,30 @@ void resample_coefficients_xrgb_neon(uint8_t *restrict out, const window_t *wind
     int32_t k = 0;
     for (; k + PLACE_STEP <= count; k += PLACE_STEP) {
         if (!find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
-            resample_coefficients_xrgb_scalar(out + (ptrdiff_t)k * 4, window, x_q18 + k, y_q18 + k, PLACE_STEP);
+            const patch_t few = {out + (ptrdiff_t)k * 4, 0, x_q18 + k, y_q18 + k, PLACE_STEP, 1};
+            resample_coefficients_xrgb_scalar(&few, window);
             continue;
         }
         for (int i = 0; i < PLACE_STEP; i++) {
-            const int16_t *corner = window->coefficients.data + place_begin(&places, window, i, stride, 4);
-            first_pass(v, corner, stride, window->y.first + places.phase_y[i] * ny, ny, 4 * nx);
-            const int32x4_t sums = window_sums_xrgb(v, window->x.second + places.phase_x[i] * nx, nx, 0);
+            const int16_t *corner = window->coefficients.data + places.texel[i];
+            first_pass(v, corner, stride, window->y.first + places.row_y[i] * window->y.row, ny, 4 * nx);
+            const int32x4_t sums = window_sums_xrgb(v, window->x.second + places.row_x[i] * window->x.row, nx, 0);
             const uint8x8_t pixel = pixels_from_sums(sums);
             memcpy(out + (ptrdiff_t)(k + i) * 4, &pixel, 4);
         }
     }
-    resample_coefficients_xrgb_scalar(out + (ptrdiff_t)k * 4, window, x_q18 + k, y_q18 + k, count - k);
+    const patch_t few = {out + (ptrdiff_t)k * 4, 0, x_q18 + k, y_q18 + k, count - k, 1};
+    resample_coefficients_xrgb_scalar(&few, window);
 }
 
-void resample_coefficients_gray_neon(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
-                                     const int32_t *restrict y_q18, int32_t count)
+void resample_coefficients_xrgb_neon(const patch_t *patch, const window_t *window)
+{
+    for (int32_t r = 0; r < patch->height; r++)
+        row_xrgb(patch->out + r * patch->stride, window, patch->x_q18 + r * PATCH_MAX_WIDTH,
+                 patch->y_q18 + r * PATCH_MAX_WIDTH, patch->width);
+}
+
+static void row_gray(uint8_t *out, const window_t *window, const int32_t *x_q18, const int32_t *y_q18, int32_t count)
 {
     const ptrdiff_t stride = window->coefficients.width;
     const int32_t nx = window->x.taps, ny = window->y.taps;
@@ -70,19 +77,28 @@ void resample_coefficients_gray_neon(uint8_t *restrict out, const window_t *wind
     int32_t k = 0;
     for (; k + PLACE_STEP <= count; k += PLACE_STEP) {
         if (!find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
-            resample_coefficients_gray_scalar(out + k, window, x_q18 + k, y_q18 + k, PLACE_STEP);
+            const patch_t few = {out + k, 0, x_q18 + k, y_q18 + k, PLACE_STEP, 1};
+            resample_coefficients_gray_scalar(&few, window);
             continue;
         }
         int32x4_t sums[PLACE_STEP];
         for (int i = 0; i < PLACE_STEP; i++) {
-            const int16_t *corner = window->coefficients.data + place_begin(&places, window, i, stride, 1);
-            first_pass(v, corner, stride, window->y.first + places.phase_y[i] * ny, ny, nx);
+            const int16_t *corner = window->coefficients.data + places.texel[i];
+            first_pass(v, corner, stride, window->y.first + places.row_y[i] * window->y.row, ny, nx);
             vst1q_s16(v + nx, vdupq_n_s16(0));
-            sums[i] = window_sums_gray(v, window->x.second + places.phase_x[i] * nx, nx);
+            sums[i] = window_sums_gray(v, window->x.second + places.row_x[i] * window->x.row, nx);
         }
         const uint8x8_t pixels =
             pixels_from_sums(vpaddq_s32(vpaddq_s32(sums[0], sums[1]), vpaddq_s32(sums[2], sums[3])));
         memcpy(out + k, &pixels, PLACE_STEP);
     }
-    resample_coefficients_gray_scalar(out + k, window, x_q18 + k, y_q18 + k, count - k);
+    const patch_t few = {out + k, 0, x_q18 + k, y_q18 + k, count - k, 1};
+    resample_coefficients_gray_scalar(&few, window);
+}
+
+void resample_coefficients_gray_neon(const patch_t *patch, const window_t *window)
+{
+    for (int32_t r = 0; r < patch->height; r++)
+        row_gray(patch->out + r * patch->stride, window, patch->x_q18 + r * PATCH_MAX_WIDTH,
+                 patch->y_q18 + r * PATCH_MAX_WIDTH, patch->width);
 }

@@ -52,16 +52,21 @@ static inline void weigh(uint8_t *out, const window_t *window, int32_t x_q18, in
     }
 }
 
-void resample_coefficients_gray_scalar(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
-                                       const int32_t *restrict y_q18, int32_t count)
+static inline void weigh_patch(const patch_t *patch, const window_t *window, int32_t channels)
 {
-    for (int32_t k = 0; k < count; k++)
-        weigh(out + k, window, x_q18[k], y_q18[k], 1);
+    for (int32_t r = 0; r < patch->height; r++) {
+        const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
+        for (int32_t k = 0; k < patch->width; k++)
+            weigh(patch->out + r * patch->stride + k * channels, window, x_q18[k], y_q18[k], channels);
+    }
 }
 
-void resample_coefficients_xrgb_scalar(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
-                                       const int32_t *restrict y_q18, int32_t count)
+void resample_coefficients_gray_scalar(const patch_t *patch, const window_t *window)
 {
-    for (int32_t k = 0; k < count; k++)
-        weigh(out + 4 * k, window, x_q18[k], y_q18[k], 4);
+    weigh_patch(patch, window, 1);
+}
+
+void resample_coefficients_xrgb_scalar(const patch_t *patch, const window_t *window)
+{
+    weigh_patch(patch, window, 4);
 }

@@ -50,11 +50,10 @@ static inline uint8x8_t pixel_from_sums(int32x4_t sums)
     return vqshrun_n_s16(vcombine_s16(high, high), SUM_SHIFT - 16);
 }
 
-void resample_long_xrgb_neon(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
-                             const int32_t *restrict y_q18, int32_t count)
+static void row_xrgb(uint8_t *out, const window_t *window, const int32_t *x_q18, const int32_t *y_q18, int32_t count)
 {
     const ptrdiff_t stride = window->picture.stride;
-    const int32_t nx = window->x.taps, ny = window->y.taps;
+    const int32_t nx = window->x.taps;
     const offset_t offset = offset_of(window);
     const placer_t placer = placer_of(window, (nx + 1) & -2, stride);
     int16_t v[4 * WINDOW_MAX_TAPS + LANES];
@@ -62,25 +61,34 @@ void resample_long_xrgb_neon(uint8_t *restrict out, const window_t *window, cons
     int32_t k = 0;
     for (; k + PLACE_STEP <= count; k += PLACE_STEP) {
         if (!find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
-            resample_window_xrgb_scalar(out + (ptrdiff_t)k * 4, window, x_q18 + k, y_q18 + k, PLACE_STEP);
+            const patch_t few = {out + (ptrdiff_t)k * 4, 0, x_q18 + k, y_q18 + k, PLACE_STEP, 1};
+            resample_window_xrgb_scalar(&few, window);
             continue;
         }
         for (int i = 0; i < PLACE_STEP; i++) {
-            const uint8_t *texels = window->picture.data + place_begin(&places, window, i, stride, 4);
-            first_pass(v, texels, stride, &window->y, window->y.first + places.phase_y[i] * ny, 4 * nx, offset.middle);
-            const int16_t *second = window->x.second + places.phase_x[i] * nx;
+            const uint8_t *texels = window->picture.data + places.texel[i];
+            first_pass(v, texels, stride, &window->y, window->y.first + places.row_y[i] * window->y.row, 4 * nx,
+                       offset.middle);
+            const int16_t *second = window->x.second + places.row_x[i] * window->x.row;
             const uint8x8_t pixel = pixel_from_sums(window_sums_xrgb(v, second, nx, offset.start));
             memcpy(out + (ptrdiff_t)(k + i) * 4, &pixel, 4);
         }
     }
-    resample_window_xrgb_scalar(out + (ptrdiff_t)k * 4, window, x_q18 + k, y_q18 + k, count - k);
+    const patch_t few = {out + (ptrdiff_t)k * 4, 0, x_q18 + k, y_q18 + k, count - k, 1};
+    resample_window_xrgb_scalar(&few, window);
 }
 
-void resample_long_gray_neon(uint8_t *restrict out, const window_t *window, const int32_t *restrict x_q18,
-                             const int32_t *restrict y_q18, int32_t count)
+void resample_long_xrgb_neon(const patch_t *patch, const window_t *window)
+{
+    for (int32_t r = 0; r < patch->height; r++)
+        row_xrgb(patch->out + r * patch->stride, window, patch->x_q18 + r * PATCH_MAX_WIDTH,
+                 patch->y_q18 + r * PATCH_MAX_WIDTH, patch->width);
+}
+
+static void row_gray(uint8_t *out, const window_t *window, const int32_t *x_q18, const int32_t *y_q18, int32_t count)
 {
     const ptrdiff_t stride = window->picture.stride;
-    const int32_t nx = window->x.taps, ny = window->y.taps;
+    const int32_t nx = window->x.taps;
     const offset_t offset = offset_of(window);
     const placer_t placer = placer_of(window, (nx + LANES - 1) & -LANES, stride);
     int16_t v[WINDOW_MAX_TAPS + 2 * LANES];
@@ -88,16 +96,26 @@ void resample_long_gray_neon(uint8_t *restrict out, const window_t *window, cons
     int32_t k = 0;
     for (; k + PLACE_STEP <= count; k += PLACE_STEP) {
         if (!find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
-            resample_window_gray_scalar(out + k, window, x_q18 + k, y_q18 + k, PLACE_STEP);
+            const patch_t few = {out + k, 0, x_q18 + k, y_q18 + k, PLACE_STEP, 1};
+            resample_window_gray_scalar(&few, window);
             continue;
         }
         for (int i = 0; i < PLACE_STEP; i++) {
-            const uint8_t *texels = window->picture.data + place_begin(&places, window, i, stride, 1);
-            first_pass(v, texels, stride, &window->y, window->y.first + places.phase_y[i] * ny, nx, offset.middle);
+            const uint8_t *texels = window->picture.data + places.texel[i];
+            first_pass(v, texels, stride, &window->y, window->y.first + places.row_y[i] * window->y.row, nx,
+                       offset.middle);
             vst1q_s16(v + nx, vdupq_n_s16(0));
-            const int16_t *second = window->x.second + places.phase_x[i] * nx;
+            const int16_t *second = window->x.second + places.row_x[i] * window->x.row;
             out[k + i] = pixel_from_sum(offset.start + vaddvq_s32(window_sums_gray(v, second, nx)));
         }
     }
-    resample_window_gray_scalar(out + k, window, x_q18 + k, y_q18 + k, count - k);
+    const patch_t few = {out + k, 0, x_q18 + k, y_q18 + k, count - k, 1};
+    resample_window_gray_scalar(&few, window);
+}
+
+void resample_long_gray_neon(const patch_t *patch, const window_t *window)
+{
+    for (int32_t r = 0; r < patch->height; r++)
+        row_gray(patch->out + r * patch->stride, window, patch->x_q18 + r * PATCH_MAX_WIDTH,
+                 patch->y_q18 + r * PATCH_MAX_WIDTH, patch->width);
 }

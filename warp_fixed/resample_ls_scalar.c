@@ -21,16 +21,21 @@ static inline void evaluate(uint8_t *out, const ls_surface_t *surface, int32_t x
     }
 }
 
-void resample_ls_gray_scalar(uint8_t *restrict out, const ls_surface_t *surface, const int32_t *restrict x_q18,
-                             const int32_t *restrict y_q18, int32_t count)
+static inline void evaluate_patch(const patch_t *patch, const ls_surface_t *surface, int32_t channels)
 {
-    for (int32_t k = 0; k < count; k++)
-        evaluate(out + k, surface, x_q18[k], y_q18[k], 1);
+    for (int32_t r = 0; r < patch->height; r++) {
+        const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
+        for (int32_t k = 0; k < patch->width; k++)
+            evaluate(patch->out + r * patch->stride + k * channels, surface, x_q18[k], y_q18[k], channels);
+    }
 }
 
-void resample_ls_xrgb_scalar(uint8_t *restrict out, const ls_surface_t *surface, const int32_t *restrict x_q18,
-                             const int32_t *restrict y_q18, int32_t count)
+void resample_ls_gray_scalar(const patch_t *patch, const ls_surface_t *surface)
 {
-    for (int32_t k = 0; k < count; k++)
-        evaluate(out + 4 * k, surface, x_q18[k], y_q18[k], 4);
+    evaluate_patch(patch, surface, 1);
+}
+
+void resample_ls_xrgb_scalar(const patch_t *patch, const ls_surface_t *surface)
+{
+    evaluate_patch(patch, surface, 4);
 }

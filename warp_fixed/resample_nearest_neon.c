@@ -1,74 +1,82 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nearest neighbour: addresses of four pixels at a time.
+#include <stdbool.h>
 #include <string.h>
 
 #include "warp_fixed/fixed.h"
 #include "warp_fixed/kernels_neon.h"
 #include "warp_fixed/kernels_scalar.h"
 #include "warp_fixed/neon.h"
+#include "warp_fixed/window_patch_neon.h"
 
-enum { STEP = 4 };
+#define INLINE static inline __attribute__((always_inline))
 
-/* Offsets of four pixels from the picture's first, bytes. */
+/* What the pixels of a picture share. */
 typedef struct {
-    int32x4_t last_x, last_y, stride;
-    int32_t pixel_log2;
-} places_t;
+    const uint8_t *data;
+    int32_t last_x, last_y, stride;
+    int pixel_log2;
+} pixels_t;
 
-static inline places_t places_in(const image_t *picture, int32_t pixel_log2)
+/* Offsets of four pixels. */
+INLINE uint32x4_t offsets(const pixels_t *from, const int32_t *x_q18, const int32_t *y_q18, bool inside)
 {
-    return (places_t){vdupq_n_s32(picture->width - 1), vdupq_n_s32(picture->height - 1), vdupq_n_s32(picture->stride),
-                      pixel_log2};
-}
-
-static inline uint32x4_t offsets(const places_t *places, const int32_t *x_q18, const int32_t *y_q18)
-{
-    const int32x4_t zero = vdupq_n_s32(0);
-    const int32x4_t u = vshrq_n_s32(vld1q_s32(x_q18), GRID_FRACTION_BITS);
-    const int32x4_t v = vshrq_n_s32(vld1q_s32(y_q18), GRID_FRACTION_BITS);
-    const int32x4_t x = vshlq_s32(vminq_s32(vmaxq_s32(u, zero), places->last_x), vdupq_n_s32(places->pixel_log2));
-    const int32x4_t y = vminq_s32(vmaxq_s32(v, zero), places->last_y);
-    return vreinterpretq_u32_s32(vmlaq_s32(x, y, places->stride));
-}
-
-/* Whether every offset fits 32 bits; no picture without huge gaps between its rows is larger. */
-static inline int offsets_fit(const image_t *picture)
-{
-    return (int64_t)picture->stride * picture->height <= INT32_MAX;
-}
-
-void resample_nearest_gray_neon(uint8_t *restrict out, const image_t *picture, const int32_t *restrict x_q18,
-                                const int32_t *restrict y_q18, int32_t count)
-{
-    const places_t places = places_in(picture, 0);
-    const uint8_t *data = picture->data;
-    int32_t k = 0;
-    for (; offsets_fit(picture) && k + STEP <= count; k += STEP) {
-        const uint64x2_t pairs = vreinterpretq_u64_u32(offsets(&places, x_q18 + k, y_q18 + k));
-        const uint64_t first = vgetq_lane_u64(pairs, 0), second = vgetq_lane_u64(pairs, 1);
-        out[k] = data[(uint32_t)first];
-        out[k + 1] = data[first >> 32];
-        out[k + 2] = data[(uint32_t)second];
-        out[k + 3] = data[second >> 32];
+    int32x4_t x = vshrq_n_s32(vld1q_s32(x_q18), GRID_FRACTION_BITS);
+    int32x4_t y = vshrq_n_s32(vld1q_s32(y_q18), GRID_FRACTION_BITS);
+    if (!inside) {
+        x = vminq_s32(vmaxq_s32(x, vdupq_n_s32(0)), vdupq_n_s32(from->last_x));
+        y = vminq_s32(vmaxq_s32(y, vdupq_n_s32(0)), vdupq_n_s32(from->last_y));
     }
-    resample_nearest_gray_scalar(out + k, picture, x_q18 + k, y_q18 + k, count - k);
+    return vreinterpretq_u32_s32(vmlaq_n_s32(vshlq_s32(x, vdupq_n_s32(from->pixel_log2)), y, from->stride));
 }
 
-void resample_nearest_xrgb_neon(uint8_t *restrict out, const image_t *picture, const int32_t *restrict x_q18,
-                                const int32_t *restrict y_q18, int32_t count)
+INLINE void copy_four(uint8_t *out, const pixels_t *from, uint32x4_t offset)
 {
-    const places_t places = places_in(picture, 2);
-    const uint8_t *data = picture->data;
-    int32_t k = 0;
-    for (; offsets_fit(picture) && k + STEP <= count; k += STEP) {
-        const uint64x2_t pairs = vreinterpretq_u64_u32(offsets(&places, x_q18 + k, y_q18 + k));
-        const uint64_t first = vgetq_lane_u64(pairs, 0), second = vgetq_lane_u64(pairs, 1);
-        uint32_t pixels[STEP];
-        memcpy(&pixels[0], data + (uint32_t)first, sizeof *pixels);
-        memcpy(&pixels[1], data + (first >> 32), sizeof *pixels);
-        memcpy(&pixels[2], data + (uint32_t)second, sizeof *pixels);
-        memcpy(&pixels[3], data + (second >> 32), sizeof *pixels);
-        memcpy(out + (ptrdiff_t)k * 4, pixels, sizeof pixels);
+    const uint32_t at[PATCH_STEP] = {vgetq_lane_u32(offset, 0), vgetq_lane_u32(offset, 1), vgetq_lane_u32(offset, 2),
+                                     vgetq_lane_u32(offset, 3)};
+    for (int i = 0; i < PATCH_STEP; i++)
+        memcpy(out + (i << from->pixel_log2), from->data + at[i], (size_t)1 << from->pixel_log2);
+}
+
+/* Rows of at least one step; the last one may overlap the one before. */
+INLINE void copy_patch(const patch_t *patch, const pixels_t *from, bool inside)
+{
+    for (int32_t r = 0; r < patch->height; r++) {
+        const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
+        uint8_t *out = patch->out + r * patch->stride;
+        for (int32_t k = 0; k < patch->width; k += PATCH_STEP) {
+            const int32_t at = step_begin(k, patch->width);
+            copy_four(out + (at << from->pixel_log2), from, offsets(from, x_q18 + at, y_q18 + at, inside));
+        }
     }
-    resample_nearest_xrgb_scalar(out + (ptrdiff_t)k * 4, picture, x_q18 + k, y_q18 + k, count - k);
+}
+
+INLINE void nearest(const patch_t *patch, const image_t *picture, int pixel_log2)
+{
+    const pixels_t from = {picture->data, picture->width - 1, picture->height - 1, picture->stride, pixel_log2};
+    if (points_inside(patch, picture->width, picture->height))
+        copy_patch(patch, &from, true);
+    else
+        copy_patch(patch, &from, false);
+}
+
+static bool suits(const patch_t *patch, const image_t *picture)
+{
+    return patch->width >= PATCH_STEP && patch->height > 0 && offsets_fit(picture->stride, picture->height);
+}
+
+void resample_nearest_gray_neon(const patch_t *patch, const image_t *picture)
+{
+    if (suits(patch, picture))
+        nearest(patch, picture, 0);
+    else
+        resample_nearest_gray_scalar(patch, picture);
+}
+
+void resample_nearest_xrgb_neon(const patch_t *patch, const image_t *picture)
+{
+    if (suits(patch, picture))
+        nearest(patch, picture, 2);
+    else
+        resample_nearest_xrgb_scalar(patch, picture);
 }

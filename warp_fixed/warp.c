@@ -6,20 +6,30 @@
 
 #include "warp_fixed/fixed.h"
 
-enum { WHOLE_ROW_LOG2 = 12 };
+enum { TILE_ROWS_LOG2 = 4, TILE_COLUMNS_LOG2 = 6, TILE_COLUMNS = 1 << TILE_COLUMNS_LOG2 };
 
-_Static_assert(IMAGE_MAX_WIDTH <= 1 << WHOLE_ROW_LOG2, "one block must hold a row");
+_Static_assert(1 << TILE_ROWS_LOG2 == (int)PATCH_MAX_HEIGHT, "a patch has a tile's rows");
+_Static_assert((int)TILE_COLUMNS == (int)PATCH_MAX_WIDTH, "and its columns");
+_Static_assert((int)FOOTPRINT_BAND == (int)PATCH_MAX_HEIGHT, "tiles hold whole blocks");
+_Static_assert((int)TILE_COLUMNS % (int)GRID_MAX_SPAN == 0, "tiles hold whole spans");
 
 /* What the rows of one frame share. */
 typedef struct {
     warp_t *warp;
     const warp_kernels_t *kernels;
     const image_t *panel;
-    image_t picture;      /* as it came, or filtered for WARP_NEAREST; unset for WARP_LS */
-    bool filtered;        /* windows are of coefficients */
-    ls_surface_t surface; /* for WARP_LS only */
-    int block_log2;       /* of the present rows' blocks */
+    image_t picture;             /* as it came, or filtered for WARP_NEAREST; unset for WARP_LS */
+    bool filtered;               /* windows are of coefficients */
+    ls_surface_t surface;        /* for WARP_LS only */
+    int rows_log2, columns_log2; /* of the present blocks, which share a window; blocks are whole in a tile */
 } frame_t;
+
+/* Some rows of TILE_COLUMNS pixels, and their points: small enough to stay in the first-level cache. */
+typedef struct {
+    int32_t row, column;                                    /* of the first pixel */
+    int32_t begin[PATCH_MAX_HEIGHT], end[PATCH_MAX_HEIGHT]; /* lit columns of each row */
+    int32_t x_q18[PATCH_MAX_HEIGHT * PATCH_MAX_WIDTH], y_q18[PATCH_MAX_HEIGHT * PATCH_MAX_WIDTH];
+} tile_t;
 
 void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t border[3])
 {
@@ -76,7 +86,7 @@ static void prepare_picture(frame_t *frame, const image_t *picture, int32_t k_q1
 static void choose_blocks(frame_t *frame, int32_t j)
 {
     warp_t *warp = frame->warp;
-    footprint_blocks(&warp->blocks, &warp->grid, j, frame->block_log2);
+    footprint_blocks(&warp->blocks, &warp->grid, j, frame->rows_log2);
     for (int32_t b = warp->blocks.begin; b < warp->blocks.end; b++) {
         const footprint_sides_t sides = warp->blocks.block[b];
         warp->block[b] = (warp_block_t){window_side(warp->resampler, sides.width_q16),
@@ -104,49 +114,96 @@ static window_t window_of(const frame_t *frame, const warp_block_t *block)
     return window;
 }
 
-/* Resample pixels [begin, end) of row j, whose points are x and y; the pieces of each footprint block in turn. */
-static void resample(const frame_t *frame, int32_t j, int32_t begin, int32_t end, const int32_t *x, const int32_t *y)
+static void make_patch(const frame_t *frame, const patch_t *patch, const warp_block_t *block)
 {
     const warp_kernels_t *kernels = frame->kernels;
     const bool gray = frame->panel->format == IMAGE_GRAY8;
-    uint8_t *row = image_row(frame->panel, j);
-    const int32_t channels = (int32_t)frame->panel->format;
     if (frame->warp->resampler == WARP_NEAREST) {
-        resample_nearest_fn *nearest = gray ? kernels->nearest_gray : kernels->nearest_xrgb;
-        nearest(row + begin * channels, &frame->picture, x, y, end - begin);
-        return;
-    }
-    if (frame->warp->resampler == WARP_LS) {
-        resample_ls_fn *evaluate = gray ? kernels->ls_gray : kernels->ls_xrgb;
-        evaluate(row + begin * channels, &frame->surface, x, y, end - begin);
-        return;
-    }
-    resample_window_fn *weigh = gray ? kernels->window_gray : kernels->window_xrgb;
-    if (frame->filtered)
-        weigh = gray ? kernels->coefficients_gray : kernels->coefficients_xrgb;
-    for (int32_t i = begin; i < end;) {
-        const int32_t block = i >> frame->block_log2, block_end = (block + 1) << frame->block_log2;
-        const int32_t piece_end = block_end < end ? block_end : end;
-        const window_t window = window_of(frame, &frame->warp->block[block]);
-        weigh(row + i * channels, &window, x + (i - begin), y + (i - begin), piece_end - i);
-        i = piece_end;
+        (gray ? kernels->nearest_gray : kernels->nearest_xrgb)(patch, &frame->picture);
+    } else if (frame->warp->resampler == WARP_LS) {
+        (gray ? kernels->ls_gray : kernels->ls_xrgb)(patch, &frame->surface);
+    } else {
+        const window_t window = window_of(frame, block);
+        if (frame->filtered)
+            (gray ? kernels->coefficients_gray : kernels->coefficients_xrgb)(patch, &window);
+        else
+            (gray ? kernels->window_gray : kernels->window_xrgb)(patch, &window);
     }
 }
 
-static void make_row(const frame_t *frame, int32_t j)
+/* The lit pixels of a row of the tile between two columns; none when begin >= end. */
+typedef struct {
+    int32_t begin, end;
+} extent_t;
+
+static extent_t extent_of(const tile_t *tile, int32_t r, int32_t first, int32_t last)
+{
+    return (extent_t){tile->begin[r] > first ? tile->begin[r] : first, tile->end[r] < last ? tile->end[r] : last};
+}
+
+/* The lit pixels of one block: rows of the same extent make one patch. */
+static void make_block(const frame_t *frame, const tile_t *tile, int32_t rows, int32_t first)
+{
+    const int32_t last = first + (1 << frame->columns_log2), channels = (int32_t)frame->panel->format;
+    for (int32_t r = 0, next; r < rows; r = next) {
+        const extent_t lit = extent_of(tile, r, first, last);
+        for (next = r + 1; next < rows; next++) {
+            const extent_t below = extent_of(tile, next, first, last);
+            if (below.begin != lit.begin || below.end != lit.end)
+                break;
+        }
+        if (lit.begin >= lit.end)
+            continue;
+        const int32_t point = r * PATCH_MAX_WIDTH + lit.begin - tile->column;
+        const patch_t patch = {
+            .out = image_row(frame->panel, tile->row + r) + (ptrdiff_t)lit.begin * channels,
+            .stride = frame->panel->stride,
+            .x_q18 = tile->x_q18 + point,
+            .y_q18 = tile->y_q18 + point,
+            .width = lit.end - lit.begin,
+            .height = next - r,
+        };
+        make_patch(frame, &patch, &frame->warp->block[first >> frame->columns_log2]);
+    }
+}
+
+static void tile_points(tile_t *tile, const frame_t *frame, int32_t rows)
 {
     const grid_t *grid = &frame->warp->grid;
-    const grid_row_t *row = &grid->row[j];
-    int32_t x_q18[GRID_MAX_SPAN], y_q18[GRID_MAX_SPAN];
-    fill_border(frame->warp, frame->panel, j, 0, row->begin);
-    for (int32_t begin = row->begin; begin < row->end;) {
-        const int32_t end = grid_block_end(grid, j, begin);
-        const grid_quadratic_t block = grid_block(grid, j, begin, end);
-        frame->kernels->grid_points(x_q18, y_q18, &block, end - begin);
-        resample(frame, j, begin, end, x_q18, y_q18);
-        begin = end;
+    for (int32_t r = 0; r < rows; r++) {
+        const int32_t j = tile->row + r;
+        const grid_row_t *row = &grid->row[j];
+        tile->begin[r] = row->begin > tile->column ? row->begin : tile->column;
+        tile->end[r] = row->end < tile->column + TILE_COLUMNS ? row->end : tile->column + TILE_COLUMNS;
+        for (int32_t begin = tile->begin[r]; begin < tile->end[r];) {
+            const int32_t end = grid_block_end(grid, j, begin), at = r * PATCH_MAX_WIDTH + begin - tile->column;
+            const grid_quadratic_t block = grid_block(grid, j, begin, end);
+            frame->kernels->grid_points(tile->x_q18 + at, tile->y_q18 + at, &block, end - begin);
+            begin = end;
+        }
     }
-    fill_border(frame->warp, frame->panel, j, row->end, frame->panel->width);
+}
+
+/* One row of blocks, tile by tile. */
+static void make_rows(const frame_t *frame, int32_t j, int32_t rows)
+{
+    int32_t first = frame->panel->width, last = 0;
+    for (int32_t r = 0; r < rows; r++) {
+        const grid_row_t *row = &frame->warp->grid.row[j + r];
+        fill_border(frame->warp, frame->panel, j + r, 0, row->begin);
+        fill_border(frame->warp, frame->panel, j + r, row->end, frame->panel->width);
+        if (row->begin < row->end) {
+            first = row->begin < first ? row->begin : first;
+            last = row->end > last ? row->end : last;
+        }
+    }
+    tile_t tile;
+    tile.row = j;
+    for (tile.column = first & -TILE_COLUMNS; tile.column < last; tile.column += TILE_COLUMNS) {
+        tile_points(&tile, frame, rows);
+        for (int32_t column = 0; column < TILE_COLUMNS; column += 1 << frame->columns_log2)
+            make_block(frame, &tile, rows, tile.column + column);
+    }
 }
 
 static int32_t lit_pixels(const grid_t *grid, int32_t rows)
@@ -177,18 +234,24 @@ bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *repo
     grid_from_homography(&warp->grid, homography);
     const int32_t lit = lit_pixels(&warp->grid, panel->height);
 
-    /* Plain interpolation has no sides: one block, of side 0, serves every row. */
-    frame_t frame = {.warp = warp, .kernels = kernels, .panel = panel, .block_log2 = WHOLE_ROW_LOG2};
-    warp->block[0] = (warp_block_t){{0, 0}, {0, 0}};
+    /* Plain interpolation has no sides: one block to a tile, of side 0. */
+    frame_t frame = {.warp = warp,
+                     .kernels = kernels,
+                     .panel = panel,
+                     .rows_log2 = TILE_ROWS_LOG2,
+                     .columns_log2 = TILE_COLUMNS_LOG2};
+    for (int b = 0; b < IMAGE_MAX_WIDTH / TILE_COLUMNS; b++)
+        warp->block[b] = (warp_block_t){{0, 0}, {0, 0}};
     const bool averages = warp_averages(warp->resampler);
     if (lit > 0)
         prepare_picture(&frame, picture, k_q16);
-    for (int32_t j = 0; j < panel->height; j++) {
+    for (int32_t j = 0; j < panel->height; j += 1 << frame.rows_log2) {
         if (averages && j % FOOTPRINT_BAND == 0)
-            frame.block_log2 = footprint_block_log2(&warp->grid, j);
-        if (averages && j % (1 << frame.block_log2) == 0)
+            frame.rows_log2 = frame.columns_log2 = footprint_block_log2(&warp->grid, j);
+        if (averages)
             choose_blocks(&frame, j);
-        make_row(&frame, j);
+        const int32_t rows_left = panel->height - j, rows = 1 << frame.rows_log2;
+        make_rows(&frame, j, rows < rows_left ? rows : rows_left);
     }
     if (report != NULL)
         *report = (warp_report_t){step.in_q16, step.all_q16, lit, warp->resampler};

@@ -20,9 +20,9 @@ static inline window_place_t window_place(const window_axis_t *axis, int32_t poi
     const int32_t clamped = clamp_i32(point_q18, 0, size << GRID_FRACTION_BITS) >> (3 * level);
     const int32_t rounding = GRID_FRACTION_BITS - PHASE_BITS;
     const int32_t from_centre = ((clamped + (1 << (rounding - 1))) >> rounding) - PHASES / 2;
-    const int32_t phase = from_centre & (PHASES - 1);
-    const int32_t row = phase * axis->taps;
-    return (window_place_t){(from_centre >> PHASE_BITS) + axis->start[phase], axis->first + row, axis->second + row};
+    const int32_t from_begin = from_centre + axis->lead;
+    const int32_t row = (from_begin & (PHASES - 1)) * axis->row;
+    return (window_place_t){from_begin >> PHASE_BITS, axis->first + row, axis->second + row};
 }
 
 #endif

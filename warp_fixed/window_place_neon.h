@@ -16,7 +16,7 @@ enum { PLACE_STEP = 4 };
 /** One axis of a call's windows. */
 typedef struct {
     int32x4_t size, level_shift; /**< the point is clamped to size, then shifted left by level_shift */
-    int32x4_t before, room;      /**< a window is inside where texel + before >= 0 and room - texel >= 0 */
+    int32x4_t lead, room;        /**< a window is inside where 0 <= begin <= room */
 } placer_axis_t;
 
 /** What the places of one call share. */
@@ -27,8 +27,8 @@ typedef struct {
 
 /** Four windows, all of them inside. Offsets are in elements (bytes or coefficients) from the picture's first. */
 typedef struct {
-    int32_t texel[PLACE_STEP]; /**< offset of the texel whose centre is at or before the point */
-    int32_t phase_x[PLACE_STEP], phase_y[PLACE_STEP];
+    int32_t texel[PLACE_STEP]; /**< offset of the first */
+    int32_t row_x[PLACE_STEP], row_y[PLACE_STEP];
 } places_t;
 
 /** @param taps  Texels that the caller reads; at least axis->taps. @param texels  Of the level. */
@@ -36,7 +36,7 @@ static inline placer_axis_t placer_axis(const window_axis_t *axis, int32_t size,
                                         int32_t texels)
 {
     return (placer_axis_t){vdupq_n_s32(size << GRID_FRACTION_BITS), vdupq_n_s32(-3 * level),
-                           vdupq_n_s32(axis->start[0]), vdupq_n_s32(texels - taps - axis->start[PHASES - 1])};
+                           vdupq_n_s32(axis->lead - PHASES / 2), vdupq_n_s32(texels - taps)};
 }
 
 /** @param taps_x  Texels of a row that the caller reads from a window's begin on; at least window->x.taps. */
@@ -50,44 +50,30 @@ static inline placer_t placer_of(const window_t *window, int32_t taps_x, ptrdiff
     };
 }
 
-/** The point in 1/128 texel from a texel's centre: see window_place(). */
-static inline int32x4_t from_centre(const placer_axis_t *axis, const int32_t *point_q18)
+/** Where the window begins, in 1/128 texel: see window_place(). */
+static inline int32x4_t from_begin(const placer_axis_t *axis, const int32_t *point_q18)
 {
     const int32x4_t clamped = vminq_s32(vmaxq_s32(vld1q_s32(point_q18), vdupq_n_s32(0)), axis->size);
     const int32x4_t scaled = vshlq_s32(clamped, axis->level_shift);
-    return vsubq_s32(vrshrq_n_s32(scaled, GRID_FRACTION_BITS - PHASE_BITS), vdupq_n_s32(PHASES / 2));
+    return vaddq_s32(vrshrq_n_s32(scaled, GRID_FRACTION_BITS - PHASE_BITS), axis->lead);
 }
 
-/** Never negative where the window is inside, at any phase: starts rise with it. */
-static inline int32x4_t inside(const placer_axis_t *axis, int32x4_t texel)
+/** Never negative where the window is inside. */
+static inline int32x4_t inside(const placer_axis_t *axis, int32x4_t begin)
 {
-    return vminq_s32(vaddq_s32(texel, axis->before), vsubq_s32(axis->room, texel));
+    return vminq_s32(begin, vsubq_s32(axis->room, begin));
 }
 
 /** @return false when a window may leave the picture; *places is then not to be used. */
 static inline bool find_places(places_t *places, const placer_t *placer, const int32_t *x_q18, const int32_t *y_q18)
 {
-    const int32x4_t x = from_centre(&placer->x, x_q18), y = from_centre(&placer->y, y_q18);
+    const int32x4_t x = from_begin(&placer->x, x_q18), y = from_begin(&placer->y, y_q18);
     const int32x4_t u = vshrq_n_s32(x, PHASE_BITS), v = vshrq_n_s32(y, PHASE_BITS);
     const int32x4_t mask = vdupq_n_s32(PHASES - 1);
     vst1q_s32(places->texel, vmlaq_s32(vmulq_s32(u, placer->channels), v, placer->stride));
-    vst1q_s32(places->phase_x, vandq_s32(x, mask));
-    vst1q_s32(places->phase_y, vandq_s32(y, mask));
+    vst1q_s32(places->row_x, vandq_s32(x, mask));
+    vst1q_s32(places->row_y, vandq_s32(y, mask));
     return vminvq_s32(vminq_s32(inside(&placer->x, u), inside(&placer->y, v))) >= 0;
-}
-
-/** @return Offset of the first texel of window i. */
-static inline ptrdiff_t place_begin(const places_t *places, const window_t *window, int i, ptrdiff_t stride,
-                                    int32_t channels)
-{
-    return places->texel[i] + window->y.start[places->phase_y[i]] * stride +
-           window->x.start[places->phase_x[i]] * channels;
-}
-
-/** Whether every offset fits 32 bits; no picture without huge gaps between its rows is larger. */
-static inline bool offsets_fit(ptrdiff_t stride, int32_t rows)
-{
-    return (int64_t)stride * rows <= INT32_MAX;
 }
 
 #endif

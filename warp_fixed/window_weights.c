@@ -15,7 +15,7 @@ typedef struct {
     int64_t (*integral)(int64_t t); /* running integral from 0, or NULL when it is only interpolated with */
 } kernel_t;
 
-enum { ONE = 128, PHASE = ONE / PHASES };
+enum { ONE = PHASES };
 
 static int64_t box_value(int64_t t)
 {
@@ -132,30 +132,42 @@ static int32_t side_q6(int32_t side)
     return (64 + 2 * ((side - 64) % 32)) << octave;
 }
 
+static bool is_short(int32_t taps)
+{
+    return taps <= WINDOW_SHORT_TAPS;
+}
+
+/* Entries from row to row. */
+static int32_t row_of(int32_t taps)
+{
+    return is_short(taps) ? WINDOW_SHORT_TAPS : taps;
+}
+
 /* Of windows of texels. */
 static int32_t first_shift_of(int32_t taps)
 {
-    return taps > WINDOW_SHORT_TAPS ? LONG_FIRST_SHIFT : 0;
+    return is_short(taps) ? 0 : LONG_FIRST_SHIFT;
 }
 
-static void fill_row(window_weights_t *weights, const kernel_t *kernel, int32_t side, int32_t phase)
+/* The first texel's centre is at s/2 + h - row/128 before the point. */
+static void fill_row(window_weights_t *weights, const kernel_t *kernel, int32_t side, int32_t row)
 {
     const int32_t s = side_q6(side), taps = weights->taps[side];
-    const int32_t start = (int32_t)floor_shift(PHASE * phase - kernel->half_width - s, 7) + 1;
-    const size_t at = weights->at[side] + (size_t)phase * (size_t)taps;
+    const size_t at = weights->at[side] + (size_t)row * (size_t)row_of(taps);
     int64_t exact[WINDOW_MAX_TAPS];
     for (int32_t i = 0; i < taps; i++) {
-        const int64_t t = PHASE * phase - ONE * (start + i);
+        const int64_t t = kernel->half_width + s - ONE + row - ONE * i;
         exact[i] = s == 0 ? kernel->value(t) : kernel->integral(t + s) - kernel->integral(t - s);
         weights->negative |= exact[i] < 0;
     }
-    weights->start[side][phase] = (int8_t)start;
     int32_t first_sum = (kernel->positive ? FIRST_SUM_POSITIVE : FIRST_SUM) << first_shift_of(taps);
     int32_t second_sum = kernel->positive ? SECOND_SUM_POSITIVE : SECOND_SUM;
     if (weights->of_coefficients)
         first_sum = second_sum = 1 << COEFFICIENT_SUM_LOG2;
     round_to_sum(&weights->first[at], exact, taps, first_sum);
     round_to_sum(&weights->second[at], exact, taps, second_sum);
+    for (int32_t i = taps; i < row_of(taps); i++)
+        weights->first[at + (size_t)i] = weights->second[at + (size_t)i] = 0;
 }
 
 void window_weights_init(window_weights_t *weights, warp_resampler_t resampler, bool of_coefficients)
@@ -165,16 +177,21 @@ void window_weights_init(window_weights_t *weights, warp_resampler_t resampler, 
         return;
     weights->of_coefficients = of_coefficients;
     weights->negative = false;
+    weights->half_width = kernel->half_width;
     const int32_t sides = warp_averages(resampler) ? WINDOW_SIDES : 1;
-    uint32_t at = 0;
+    uint32_t at = 0, in_bytes = 0;
     for (int32_t side = 0; side < sides; side++) {
         const int32_t support = 2 * kernel->half_width + 2 * side_q6(side); /* 1/128 px */
-        weights->taps[side] = (uint8_t)((support + ONE - 1) / ONE);
+        const int32_t taps = (support + ONE - 1) / ONE;
+        weights->taps[side] = (uint8_t)taps;
         weights->at[side] = at;
-        at += (uint32_t)weights->taps[side] * PHASES;
-        for (int32_t phase = 0; phase < PHASES; phase++)
-            fill_row(weights, kernel, side, phase);
+        at += (uint32_t)row_of(taps) * PHASES;
+        in_bytes = is_short(taps) ? at : in_bytes; /* short sides come first */
+        for (int32_t row = 0; row < PHASES; row++)
+            fill_row(weights, kernel, side, row);
     }
+    for (uint32_t i = 0; i < in_bytes && !of_coefficients; i++)
+        weights->first_bytes[i] = (uint8_t)(weights->negative ? -weights->first[i] : weights->first[i]);
 }
 
 /* The table entry nearest to a side of at most WINDOW_MAX_SIDE px. */
@@ -209,7 +226,14 @@ window_axis_t window_axis(const window_weights_t *weights, uint16_t side)
 {
     const uint32_t at = weights->at[side];
     const int32_t taps = weights->taps[side];
-    const int32_t first_shift = weights->of_coefficients ? COEFFICIENT_SUM_LOG2 : first_shift_of(taps);
-    return (window_axis_t){weights->negative, &weights->first[at], &weights->second[at], weights->start[side], taps,
-                           first_shift};
+    return (window_axis_t){
+        .negative = weights->negative,
+        .first = &weights->first[at],
+        .second = &weights->second[at],
+        .first_bytes = !weights->of_coefficients && is_short(taps) ? &weights->first_bytes[at] : NULL,
+        .taps = taps,
+        .row = row_of(taps),
+        .lead = ONE - weights->half_width - side_q6(side),
+        .first_shift = weights->of_coefficients ? COEFFICIENT_SUM_LOG2 : first_shift_of(taps),
+    };
 }

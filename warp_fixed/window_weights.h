@@ -5,6 +5,9 @@
 // centre at i + 1/2) weighs (C(x + s/2 - i - 1/2) - C(x - s/2 - i - 1/2)) / s, where C is the running integral of the
 // kernel and s the side it is averaged over; for s = 0 the kernel itself: interpolation. Weights are exact rationals,
 // rounded by largest remainders so that their sum is exact.
+//
+// With h the kernel's half width, a window begins with the first texel whose centre is right of x - s/2 - h. How far
+// right, in 1/128 px, is its row in the table: see window_place.h.
 #ifndef WARP_FIXED_WINDOW_WEIGHTS_H
 #define WARP_FIXED_WINDOW_WEIGHTS_H
 
@@ -18,20 +21,22 @@ enum {
     WINDOW_SIDES = 64 + 6 * 32 + 1, /**< below 1 px in steps of 1/64, then 32 steps to each doubling, up to 64 px */
     WINDOW_MAX_SIDE = 64,           /**< picture pixels; larger footprints are read from halved levels */
     WINDOW_MAX_TAPS = WINDOW_MAX_SIDE + 4,
-    WINDOW_SHORT_TAPS = 8, /**< up to here the first pass has 8-bit weights */
-    WINDOW_ROW_SLACK = 8,  /**< weights from the begin of a row that vector code may load, if there are fewer */
-    WINDOW_POOL = 4212 * PHASES + WINDOW_ROW_SLACK /**< weights of all sides of the widest kernel, half width 2 */
+    WINDOW_SHORT_TAPS = 8,    /**< up to here the first pass has 8-bit weights */
+    WINDOW_ROW_SLACK = 8,     /**< weights from the begin of a row that vector code may load, if there are fewer */
+    WINDOW_SHORT_SIDES = 153, /**< sides with short windows, of the narrowest kernel, half width 1/2 */
+    WINDOW_POOL = 4488 * PHASES + WINDOW_ROW_SLACK /**< weights of all sides of the widest kernel, half width 2 */
 };
 
-/** Weights along one axis for one side: row `phase` of each table has `taps` entries. */
+/** Weights along one axis for one side: PHASES rows of each table. */
 typedef struct {
     bool negative; /**< some weights of the table are: sums overshoot what bytes can make */
     const int16_t
         *first; /**< sum FIRST_SUM, FIRST_SUM_POSITIVE, or that << LONG_FIRST_SHIFT; of coefficients as second */
-    const int16_t *second; /**< sum SECOND_SUM, SECOND_SUM_POSITIVE, of coefficients 1 << COEFFICIENT_SUM_LOG2 */
-    const int8_t *start;   /**< first texel of the window, from the texel whose centre is at or before the point; rises
-                              with the phase */
-    int32_t taps;          /**< 1 to WINDOW_MAX_TAPS */
+    const int16_t *second;      /**< sum SECOND_SUM, SECOND_SUM_POSITIVE, of coefficients 1 << COEFFICIENT_SUM_LOG2 */
+    const uint8_t *first_bytes; /**< as `first`, negated where `negative`; of short windows of texels alone */
+    int32_t taps;               /**< 1 to WINDOW_MAX_TAPS */
+    int32_t row;                /**< entries from row to row: taps, or WINDOW_SHORT_TAPS with zeros where these do */
+    int32_t lead;               /**< 1/128 px: 1 - h - s/2 */
     int32_t
         first_shift; /**< 0, or LONG_FIRST_SHIFT when taps > WINDOW_SHORT_TAPS; of coefficients: COEFFICIENT_SUM_LOG2 */
 } window_axis_t;
@@ -40,11 +45,12 @@ typedef struct {
 typedef struct {
     bool of_coefficients;      /**< not of texels: kernels.h */
     bool negative;             /**< some weights are */
+    int32_t half_width;        /**< of the kernel, 1/128 px */
     uint32_t at[WINDOW_SIDES]; /**< of row 0 in the pools */
     uint8_t taps[WINDOW_SIDES];
-    int8_t start[WINDOW_SIDES][PHASES];
     int16_t first[WINDOW_POOL];
     int16_t second[WINDOW_POOL];
+    uint8_t first_bytes[WINDOW_SHORT_SIDES * PHASES * WINDOW_SHORT_TAPS];
 } window_weights_t;
 
 /** Which entry of the table serves a footprint's side, and from which level of the picture. */

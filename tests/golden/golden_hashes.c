@@ -94,6 +94,21 @@ static void print_fits(void)
     }
 }
 
+/* Those of the first sides, by phase, without what pads the rows. */
+static void print_weights(void)
+{
+    enum { COUNT = PHASES * 256 };
+    static int16_t weight[COUNT];
+    window_weights_init(&warp.texel_weights, WARP_AREA, false);
+    for (int32_t side = 0, at = 0; at < COUNT; side++) {
+        const window_axis_t axis = window_axis(&warp.texel_weights, (uint16_t)side);
+        for (int32_t phase = 0; phase < PHASES && at < COUNT; phase++)
+            for (int32_t t = 0; t < axis.taps && at < COUNT; t++)
+                weight[at++] = axis.second[((phase + axis.lead) & (PHASES - 1)) * axis.row + t];
+    }
+    printf("weights/area %016" PRIx64 "\n", hash_of(weight, sizeof weight));
+}
+
 int main(int argc, char **argv)
 {
     kernels = warp_kernels_from_name(argc == 2 ? argv[1] : "");
@@ -108,8 +123,7 @@ int main(int argc, char **argv)
             print_frame(&viewpoints[v], &warp_methods[m], IMAGE_XRGB8888);
         }
     }
-    window_weights_init(&warp.texel_weights, WARP_AREA, false);
-    printf("weights/area %016" PRIx64 "\n", hash_of(warp.texel_weights.second, sizeof(int16_t) * PHASES * 256));
+    print_weights();
     for (warp_filter_t filter = WARP_FILTER_GAUSS; filter <= WARP_FILTER_BUTTER; filter++) {
         for (int32_t k_q16 = 70000; k_q16 < 4000000; k_q16 += 700000) {
             static fir_t fir;

@@ -43,10 +43,20 @@ static void check_axis(const warp_kernels_t *tested, const ls_axis_t *axis, rng_
     }
 }
 
+/* As a grid makes them, in and around an axis of so many pixels. */
+static void fill_points(int32_t *point_q18, int32_t size, rng_t *rng)
+{
+    const int32_t one = 1 << 18, at = (int32_t)rng_int(rng, -3 * one, (size + 3) * one);
+    const int32_t by_column = (int32_t)rng_int(rng, -one, one), by_row = (int32_t)rng_int(rng, -one, one);
+    for (int32_t r = 0; r < PATCH_MAX_HEIGHT; r++)
+        for (int32_t k = 0; k < PATCH_MAX_WIDTH; k++)
+            point_q18[r * PATCH_MAX_WIDTH + k] = at + k * by_column + r * by_row;
+}
+
 static void check_surface(const warp_kernels_t *tested, image_format_t format, rng_t *rng)
 {
     static fenced_t memory;
-    int32_t x[CHECK_MAX_COUNT], y[CHECK_MAX_COUNT];
+    int32_t x[PATCH_MAX_HEIGHT * PATCH_MAX_WIDTH], y[PATCH_MAX_HEIGHT * PATCH_MAX_WIDTH];
     const size_t count = (size_t)axes[0].coefficients * (size_t)axes[1].coefficients * format;
     if (memory.begin == NULL)
         memory = fenced_new(200 * 200 * 4 * sizeof(int32_t));
@@ -54,17 +64,18 @@ static void check_surface(const warp_kernels_t *tested, image_format_t format, r
     for (size_t i = 0; i < count; i++)
         coefficients[i] = (int32_t)rng_int(rng, -300 * 16, 600 * 16);
     const ls_surface_t surface = {&axes[0], &axes[1], coefficients, (int32_t)rng_int(rng, 0, 4)};
-    for (int32_t points = 0; points <= CHECK_MAX_COUNT; points++) {
-        for (int32_t k = 0; k < points; k++) {
-            x[k] = (int32_t)rng_int(rng, -3 * (1 << 18), (axes[0].knots.size + 3) << 18);
-            y[k] = (int32_t)rng_int(rng, -3 * (1 << 18), (axes[1].knots.size + 3) << 18);
-        }
-        check_case("ls surface of %d x %d coefficients of %d channels, count %d", axes[0].coefficients,
-                   axes[1].coefficients, (int)format, points);
-        outputs_begin(&outputs, (size_t)points * format);
+    for (int32_t width = 0; width <= PATCH_MAX_WIDTH; width++) {
+        const int32_t height = (int32_t)rng_int(rng, 1, 3);
+        fill_points(x, axes[0].knots.size, rng);
+        fill_points(y, axes[1].knots.size, rng);
+        check_case("ls surface of %d x %d coefficients of %d channels, patch %d x %d", axes[0].coefficients,
+                   axes[1].coefficients, (int)format, width, height);
+        outputs_begin(&outputs, (size_t)(width * height) * format);
+        const patch_t expected = {outputs.expected, width * (ptrdiff_t)format, x, y, width, height};
+        const patch_t found = {outputs.found, width * (ptrdiff_t)format, x, y, width, height};
         const int gray = format == IMAGE_GRAY8;
-        (gray ? warp_kernels_scalar.ls_gray : warp_kernels_scalar.ls_xrgb)(outputs.expected, &surface, x, y, points);
-        (gray ? tested->ls_gray : tested->ls_xrgb)(outputs.found, &surface, x, y, points);
+        (gray ? warp_kernels_scalar.ls_gray : warp_kernels_scalar.ls_xrgb)(&expected, &surface);
+        (gray ? tested->ls_gray : tested->ls_xrgb)(&found, &surface);
         outputs_compare(&outputs);
     }
 }

@@ -17,7 +17,7 @@ static void take_memory(void)
         return;
     source = fenced_new(SOURCE_BYTES);
     for (int axis = 0; axis < 2; axis++)
-        points[axis] = fenced_new(CHECK_MAX_COUNT * sizeof(int32_t));
+        points[axis] = fenced_new(PATCH_MAX_HEIGHT * PATCH_MAX_WIDTH * sizeof(int32_t));
 }
 
 /* A picture without a byte after its last row's last pixel. */
@@ -30,53 +30,70 @@ static image_t fenced_picture(int32_t width, int32_t height, image_format_t form
     return picture;
 }
 
-/* Points of one axis whose windows end at or near the last texel: there, reading one too many meets the fence. */
-static const int32_t *fill_far_points(int axis, int32_t count, int32_t size, const window_axis_t *weighed, rng_t *rng)
+/* Points of one axis as a grid makes them: steps from column to column and from row to row. */
+static const int32_t *fill_points(int axis, const int32_t size[2], int64_t at, int64_t by_column, int64_t by_row)
 {
-    const int32_t one = 1 << GRID_FRACTION_BITS;
+    const int32_t count = size[0] == 0 ? 0 : (size[1] - 1) * PATCH_MAX_WIDTH + size[0];
     int32_t *point = fenced_place(&points[axis], (size_t)count * sizeof *point, 0);
-    const int64_t base = (int64_t)size * one - (int64_t)weighed->taps * one / 2 + rng_int(rng, -one, one / 2);
-    for (int32_t k = 0; k < count; k++)
-        point[k] = (int32_t)(base + rng_int(rng, -one / 4, one / 4));
+    for (int32_t r = 0; r < size[1]; r++)
+        for (int32_t k = 0; k < size[0]; k++)
+            point[r * PATCH_MAX_WIDTH + k] = (int32_t)(at + k * by_column + r * by_row);
     return point;
 }
 
-/* Points of one axis, `size` pixels long: along a line as in a frame, all over it, or anything. */
-static const int32_t *fill_points(int axis, int32_t count, int32_t size, rng_t *rng)
+/* Points whose windows end at or near the last texel: there, reading one too many meets the fence. */
+static const int32_t *far_points(int axis, const int32_t size[2], int32_t texels, int32_t taps, rng_t *rng)
 {
-    int32_t *point = fenced_place(&points[axis], (size_t)count * sizeof *point, 0);
+    const int32_t one = 1 << GRID_FRACTION_BITS;
+    const int64_t at = (int64_t)texels * one - (int64_t)taps * one / 2 + rng_int(rng, -one, one / 2);
+    return fill_points(axis, size, at, rng_int(rng, -one / 64, one / 64), rng_int(rng, -one / 16, one / 16));
+}
+
+/* Points in, across the edges of and beyond an axis of so many texels, of any step; or the same point everywhere. */
+static const int32_t *any_points(int axis, const int32_t size[2], int32_t texels, rng_t *rng)
+{
     const int kind = (int)rng_int(rng, 0, 3);
-    const int64_t whole = (int64_t)size << GRID_FRACTION_BITS, margin = whole / 8 + (1 << GRID_FRACTION_BITS);
-    int64_t at = rng_int(rng, kind == 0 ? whole / 4 : -margin, kind == 0 ? whole / 2 : whole + margin);
-    const int64_t step = kind < 2 ? rng_int(rng, -(1 << 18), 1 << 18) : 0;
-    for (int32_t k = 0; k < count; k++) {
-        if (kind == 2)
-            at = rng_int(rng, -margin, whole + margin);
-        else if (kind == 3)
-            at = rng_int(rng, 0, 1) ? (int32_t)rng_next(rng) : rng_int(rng, 0, 1) * whole;
-        point[k] = (int32_t)at;
-        at += step;
+    const int64_t one = 1 << GRID_FRACTION_BITS, whole = texels * one, margin = whole / 8 + one;
+    if (kind == 3) {
+        const int64_t at = rng_int(rng, 0, 1) ? (int32_t)rng_next(rng) : rng_int(rng, 0, 1) * whole;
+        return fill_points(axis, size, at, 0, 0);
     }
-    return point;
+    const int64_t at = rng_int(rng, kind == 0 ? whole / 4 : -margin, kind == 0 ? whole / 2 : whole + margin);
+    const int64_t most = kind == 2 ? 50 * one : one;
+    return fill_points(axis, size, at, rng_int(rng, -most, most), rng_int(rng, -most, most));
+}
+
+/* Where a table writes, rows apart as far as it likes. */
+static patch_t patch_into(void *out, const int32_t size[2], ptrdiff_t stride, const int32_t *x, const int32_t *y)
+{
+    return (patch_t){out, stride, x, y, size[0], size[1]};
+}
+
+static size_t patch_bytes(const int32_t size[2], ptrdiff_t stride, image_format_t format)
+{
+    return (size_t)((size[1] - 1) * stride) + (size_t)size[0] * format;
 }
 
 void check_nearest(const warp_kernels_t *tested)
 {
     take_memory();
-    for (uint64_t seed = 1; seed <= 40; seed++) {
+    for (uint64_t seed = 1; seed <= 60; seed++) {
         rng_t rng = {seed};
-        for (int32_t count = 0; count <= CHECK_MAX_COUNT; count++) {
+        for (int32_t count = 0; count <= PATCH_MAX_WIDTH; count++) {
             const image_format_t format = rng_int(&rng, 0, 1) ? IMAGE_GRAY8 : IMAGE_XRGB8888;
-            const int32_t width = (int32_t)rng_int(&rng, 1, 40), height = (int32_t)rng_int(&rng, 1, 40);
+            const int32_t width = (int32_t)rng_int(&rng, 1, 140), height = (int32_t)rng_int(&rng, 1, 140);
             const image_t picture = fenced_picture(width, height, format, &rng);
-            const int32_t *x = fill_points(0, count, width, &rng), *y = fill_points(1, count, height, &rng);
-            check_case("nearest, seed %d, %d x %d of %d channels, count %d", (int)seed, width, height, (int)format,
-                       count);
-            outputs_begin(&outputs, (size_t)count * format);
+            const int32_t size[2] = {count, (int32_t)rng_int(&rng, 1, PATCH_MAX_HEIGHT)};
+            const ptrdiff_t stride = count * (ptrdiff_t)format + rng_int(&rng, 0, 9);
+            const int32_t *x = any_points(0, size, width, &rng), *y = any_points(1, size, height, &rng);
+            check_case("nearest, seed %d, %d x %d of %d channels, patch %d x %d", (int)seed, width, height, (int)format,
+                       size[0], size[1]);
+            outputs_begin(&outputs, patch_bytes(size, stride, format));
+            const patch_t expected = patch_into(outputs.expected, size, stride, x, y);
+            const patch_t found = patch_into(outputs.found, size, stride, x, y);
             const int gray = format == IMAGE_GRAY8;
-            (gray ? warp_kernels_scalar.nearest_gray : warp_kernels_scalar.nearest_xrgb)(outputs.expected, &picture, x,
-                                                                                         y, count);
-            (gray ? tested->nearest_gray : tested->nearest_xrgb)(outputs.found, &picture, x, y, count);
+            (gray ? warp_kernels_scalar.nearest_gray : warp_kernels_scalar.nearest_xrgb)(&expected, &picture);
+            (gray ? tested->nearest_gray : tested->nearest_xrgb)(&found, &picture);
             outputs_compare(&outputs);
         }
     }
@@ -122,11 +139,15 @@ static void check_window(const warp_kernels_t *tested, const char *name, uint16_
     const uint64_t seed = rng->state;
     const image_format_t format = rng_int(rng, 0, 1) ? IMAGE_GRAY8 : IMAGE_XRGB8888;
     const int is_large = (int)rng_int(rng, 0, 3);
-    const int level_x = rng_int(rng, 0, 9) == 0, level_y = rng_int(rng, 0, 9) == 0;
-    const int32_t width = (int32_t)rng_int(rng, 1, is_large ? 90 : 12), count = (int32_t)rng_next(rng) & 31;
+    const window_axis_t x_axis = window_axis(&weights, x_side), y_axis = window_axis(&weights, y_side);
+    const int level_x = x_axis.taps > WINDOW_SHORT_TAPS && rng_int(rng, 0, 9) == 0;
+    const int level_y = y_axis.taps > WINDOW_SHORT_TAPS && rng_int(rng, 0, 9) == 0;
+    const int32_t width = (int32_t)rng_int(rng, 1, is_large ? 90 : 12);
     const int32_t height = (int32_t)rng_int(rng, 1, is_large ? 90 : 12), gray = format == IMAGE_GRAY8;
-    window_t window = {.x = window_axis(&weights, x_side),
-                       .y = window_axis(&weights, y_side),
+    const int32_t size[2] = {(int32_t)rng_next(rng) & 31, (int32_t)rng_int(rng, 1, 3)};
+    const ptrdiff_t stride = size[0] * (ptrdiff_t)format + rng_int(rng, 0, 9);
+    window_t window = {.x = x_axis,
+                       .y = y_axis,
                        .picture = fenced_picture(width, height, format, rng),
                        .width = level_0_size(width, level_x, rng),
                        .height = level_0_size(height, level_y, rng),
@@ -134,25 +155,27 @@ static void check_window(const warp_kernels_t *tested, const char *name, uint16_
                        .level_y = level_y};
     const int far = (int)rng_int(rng, 0, 2) == 0;
     const int32_t *x =
-        far ? fill_far_points(0, count, window.width, &window.x, rng) : fill_points(0, count, window.width, rng);
+        far ? far_points(0, size, window.width, window.x.taps, rng) : any_points(0, size, window.width, rng);
     const int32_t *y =
-        far ? fill_far_points(1, count, window.height, &window.y, rng) : fill_points(1, count, window.height, rng);
+        far ? far_points(1, size, window.height, window.y.taps, rng) : any_points(1, size, window.height, rng);
     resample_window_fn *expected, *found;
     if (weights.of_coefficients) {
         window.coefficients = fenced_coefficients(&window.picture, rng);
         expected = gray ? warp_kernels_scalar.coefficients_gray : warp_kernels_scalar.coefficients_xrgb;
         found = gray ? tested->coefficients_gray : tested->coefficients_xrgb;
     } else {
-        if (count > 0 && rng_int(rng, 0, 1))
+        if (size[0] > 0 && rng_int(rng, 0, 1))
             fill_worst(&window, x[0], y[0], (int)rng_int(rng, 0, 1));
         expected = gray ? warp_kernels_scalar.window_gray : warp_kernels_scalar.window_xrgb;
         found = gray ? tested->window_gray : tested->window_xrgb;
     }
-    check_case("%s, sides %d and %d, rng %#llx, %d x %d of %d channels, count %d", name, x_side, y_side,
-               (unsigned long long)seed, width, height, (int)format, count);
-    outputs_begin(&outputs, (size_t)count * format);
-    expected(outputs.expected, &window, x, y, count);
-    found(outputs.found, &window, x, y, count);
+    check_case("%s, sides %d and %d, rng %#llx, %d x %d of %d channels, patch %d x %d", name, x_side, y_side,
+               (unsigned long long)seed, width, height, (int)format, size[0], size[1]);
+    outputs_begin(&outputs, patch_bytes(size, stride, format));
+    const patch_t patches[2] = {patch_into(outputs.expected, size, stride, x, y),
+                                patch_into(outputs.found, size, stride, x, y)};
+    expected(&patches[0], &window);
+    found(&patches[1], &window);
     outputs_compare(&outputs);
 }
 

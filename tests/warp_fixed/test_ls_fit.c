@@ -97,7 +97,8 @@ static deviation_t compare(const image_t *picture, const ls_surface_t *surface, 
         const double off = fabs(fixed_at(surface, x_q18, y_q18) - exact);
         uint8_t pixel;
         resample_ls_fn *evaluate = warp_kernels_scalar.ls_gray;
-        evaluate(&pixel, surface, &x_q18, &y_q18, 1);
+        const patch_t patch = {&pixel, 0, &x_q18, &y_q18, 1, 1};
+        evaluate(&patch, surface);
         const int level = abs(pixel - (int)floor(fmin(255, fmax(0, exact)) + 0.5));
         worst.surface[beyond] = fmax(worst.surface[beyond], off);
         worst.levels[beyond] = level > worst.levels[beyond] ? level : worst.levels[beyond];

@@ -51,7 +51,8 @@ static void check_frame(int view, image_format_t format, int32_t k_of(const warp
         if (grid_point(&warp.grid, n % WIDTH, n / WIDTH, &x, &y)) {
             const bool gray = format == IMAGE_GRAY8;
             resample_ls_fn *evaluate = gray ? warp_kernels_scalar.ls_gray : warp_kernels_scalar.ls_xrgb;
-            evaluate(expected, &surface, &x, &y, 1);
+            const patch_t patch = {expected, 0, &x, &y, 1, 1};
+            evaluate(&patch, &surface);
         }
         if (memcmp(shown + n * (int32_t)format, expected, format) != 0)
             fail_msg("view %d, format %d, pixel (%d, %d) differs", view, format, n % WIDTH, n / WIDTH);

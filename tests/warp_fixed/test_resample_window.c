@@ -112,8 +112,8 @@ static window_t window_of(int32_t side_x, int32_t side_y)
 static uint8_t pixel_at(const window_t *window, int32_t x_q18, int32_t y_q18)
 {
     uint8_t pixel;
-    (weights.of_coefficients ? resample_coefficients_gray_scalar : resample_window_gray_scalar)(&pixel, window, &x_q18,
-                                                                                                &y_q18, 1);
+    const patch_t patch = {&pixel, 0, &x_q18, &y_q18, 1, 1};
+    (weights.of_coefficients ? resample_coefficients_gray_scalar : resample_window_gray_scalar)(&patch, window);
     return pixel;
 }
 
@@ -171,13 +171,19 @@ static void weights_sum_exactly_and_fit(void **state)
         for (int32_t side = 0; side < loops[r].sides; side++) {
             const window_axis_t axis = window_axis(&weights, (uint16_t)side);
             assert_in_range(axis.taps, 1, WINDOW_MAX_TAPS);
-            assert_true(weights.at[side] + (uint32_t)axis.taps * PHASES <= WINDOW_POOL);
-            for (int32_t phase = 0; phase < PHASES; phase++) {
+            const uint32_t end = weights.at[side] + (uint32_t)axis.row * PHASES;
+            assert_true(end + WINDOW_ROW_SLACK <= WINDOW_POOL);
+            assert_true(axis.first_bytes == NULL || end <= sizeof weights.first_bytes);
+            for (int32_t row = 0; row < PHASES; row++) {
                 int32_t first = 0, second = 0;
-                for (int32_t t = 0; t < axis.taps; t++) {
-                    const int32_t w = axis.first[phase * axis.taps + t];
+                for (int32_t t = 0; t < axis.row; t++) {
+                    const int32_t at = row * axis.row + t, w = axis.first[at];
+                    if (axis.first_bytes != NULL)
+                        assert_int_equal(axis.first_bytes[at], (uint8_t)(weights.negative ? -w : w));
+                    if (t >= axis.taps)
+                        assert_int_equal(axis.second[at], 0);
                     first += w;
-                    second += axis.second[phase * axis.taps + t];
+                    second += axis.second[at];
                     if (axis.first_shift == 0) /* 8-bit: unsigned, or negated and signed */
                         assert_true(positive ? w >= 0 && w <= 255 : -w >= -128 && -w <= 127);
                     assert_true(w >= 0 || !(warp_splines(loops[r].resampler) || positive));
@@ -232,7 +238,8 @@ static void color_is_gray_four_times(warp_resampler_t resampler, bool of_coeffic
         const int32_t x = (int32_t)rng_int(&rng, -(1 << 20), (WIDTH << 18) + (1 << 20));
         const int32_t y = (int32_t)rng_int(&rng, -(1 << 20), (HEIGHT << 18) + (1 << 20));
         uint8_t four[4];
-        loop(four, &in_color, &x, &y, 1);
+        const patch_t patch = {four, 0, &x, &y, 1, 1};
+        loop(&patch, &in_color);
         for (int c = 0; c < 4; c++)
             assert_int_equal(four[c], pixel_at(&in_gray, x, y));
     }
