@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders and decoders of every message in wallwarp.dbc.
+// Encoders and decoders of the poses in wallwarp.dbc.
 #include "firmware/can_protocol.h"
 
-#include "firmware/can_fields.h"
+#include "firmware/can_classic.h"
 
-enum { CLASSIC_LENGTH = 8, FD_LENGTH = 32, POSITION_SET_NM = 10000, POSITION_FD_NM = 1000, TIME_SET_US = 100 };
+enum { FD_LENGTH = 32, POSITION_SET_NM = 10000, POSITION_FD_NM = 1000, TIME_SET_US = 100 };
 
 /* The signals of wallwarp.dbc. */
-static const can_field_t P01_COUNTER = {8, 4};
 static const can_field_t SET_QUALITY = {12, 4}, SET_X = {16, 24}, SET_Y = {40, 24};
 static const can_field_t SET_TIME_LOW = {12, 12}, SET_Z = {24, 24}, SET_QW = {48, 16};
 static const can_field_t SET_TIME_HIGH = {12, 4}, SET_QX = {16, 16}, SET_QY = {32, 16}, SET_QZ = {48, 16};
@@ -17,39 +16,10 @@ static const can_field_t FD_POSITION[3] = {{32, 32}, {64, 32}, {96, 32}};
 static const can_field_t FD_QUATERNION[4] = {{128, 24}, {152, 24}, {176, 24}, {200, 24}};
 static const can_field_t FD_TIME = {224, 32};
 
-static const can_field_t HEARTBEAT_STATE = {12, 4}, HEARTBEAT_FRAME = {16, 16}, HEARTBEAT_FAULTS = {32, 16},
-                         HEARTBEAT_UPTIME = {48, 16};
-
-static const can_field_t STATUS_WARP_TIME = {12, 10}, STATUS_POSE_AGE = {22, 10}, STATUS_STEP = {32, 14},
-                         STATUS_FAULTS = {46, 10}, STATUS_POSE_COUNTER = {56, 8};
-
 /* To nearest, ties away from zero. */
 static int64_t rounded(int64_t value, int64_t divisor)
 {
     return (value + (value < 0 ? -divisor / 2 : divisor / 2)) / divisor;
-}
-
-static hal_can_frame_t classic_frame(uint32_t id, uint8_t counter)
-{
-    hal_can_frame_t frame = {.id = id, .length = CLASSIC_LENGTH};
-    can_field_put(&frame, P01_COUNTER, counter);
-    return frame;
-}
-
-/* The last step of every classic encoder. */
-static void protect_p01(hal_can_frame_t *frame)
-{
-    frame->data[0] = can_e2e_p01_crc((uint16_t)frame->id, frame->data, CLASSIC_LENGTH);
-}
-
-/* The first step of every classic decoder; the identifier has been seen to be right. */
-static can_check_t check_p01(const hal_can_frame_t *frame)
-{
-    if (frame->fd || frame->length != CLASSIC_LENGTH)
-        return CAN_CHECK_LENGTH;
-    if (frame->data[0] != can_e2e_p01_crc((uint16_t)frame->id, frame->data, CLASSIC_LENGTH))
-        return CAN_CHECK_CRC;
-    return can_field_get(frame, P01_COUNTER) < CAN_E2E_P01_COUNTERS ? CAN_CHECK_OK : CAN_CHECK_COUNTER;
 }
 
 static bool pose_header_fits(const can_pose_t *pose, int counters)
@@ -94,7 +64,7 @@ bool can_pose_set_encode(hal_can_frame_t part[CAN_POSE_PARTS], const can_pose_t 
 
     const uint32_t id = CAN_ID_POSE_SET + 4 * (uint32_t)pose->viewer;
     for (uint32_t i = 0; i < CAN_POSE_PARTS; i++)
-        part[i] = classic_frame(id + i, pose->counter);
+        part[i] = can_classic_frame(id + i, pose->counter);
     can_field_put(&part[0], SET_QUALITY, pose->quality);
     can_field_put(&part[0], SET_X, position[0]);
     can_field_put(&part[0], SET_Y, position[1]);
@@ -106,7 +76,7 @@ bool can_pose_set_encode(hal_can_frame_t part[CAN_POSE_PARTS], const can_pose_t 
     can_field_put(&part[2], SET_QY, quaternion[2]);
     can_field_put(&part[2], SET_QZ, quaternion[3]);
     for (int i = 0; i < CAN_POSE_PARTS; i++)
-        protect_p01(&part[i]);
+        can_classic_protect(&part[i]);
     return true;
 }
 
@@ -115,11 +85,11 @@ can_check_t can_pose_part_check(const hal_can_frame_t *frame, uint8_t viewer, in
     const uint32_t first = CAN_ID_POSE_SET + 4 * (uint32_t)viewer;
     if (frame->extended || frame->id < first || frame->id >= first + CAN_POSE_PARTS)
         return CAN_CHECK_OTHER;
-    const can_check_t check = check_p01(frame);
+    const can_check_t check = can_classic_check(frame);
     if (check != CAN_CHECK_OK)
         return check;
     *part = (int)(frame->id - first);
-    *counter = (uint8_t)can_field_get(frame, P01_COUNTER);
+    *counter = can_classic_counter(frame);
     return CAN_CHECK_OK;
 }
 
@@ -209,79 +179,5 @@ can_check_t can_pose_fd_decode(can_pose_t *pose, const hal_can_frame_t *frame, u
     for (int i = 0; i < 4; i++)
         found.pose.quaternion_q30[i] = can_field_get_signed(frame, FD_QUATERNION[i]) * (1 << 8);
     *pose = found;
-    return CAN_CHECK_OK;
-}
-
-static bool is_node(uint32_t node)
-{
-    return node >= 1 && node <= CAN_MAX_NODE;
-}
-
-bool can_heartbeat_encode(hal_can_frame_t *frame, const can_heartbeat_t *heartbeat)
-{
-    if (!is_node(heartbeat->node) || heartbeat->counter >= CAN_E2E_P01_COUNTERS ||
-        (unsigned)heartbeat->state > CAN_BOARD_FAULT || heartbeat->fault_flags > UINT16_MAX)
-        return false;
-    *frame = classic_frame(CAN_ID_HEARTBEAT + (uint32_t)heartbeat->node, heartbeat->counter);
-    can_field_put(frame, HEARTBEAT_STATE, heartbeat->state);
-    can_field_put(frame, HEARTBEAT_FRAME, heartbeat->frame_number);
-    can_field_put(frame, HEARTBEAT_FAULTS, heartbeat->fault_flags);
-    can_field_put(frame, HEARTBEAT_UPTIME, heartbeat->uptime_s);
-    protect_p01(frame);
-    return true;
-}
-
-can_check_t can_heartbeat_decode(can_heartbeat_t *heartbeat, const hal_can_frame_t *frame)
-{
-    if (frame->extended || frame->id < CAN_ID_HEARTBEAT || !is_node(frame->id - CAN_ID_HEARTBEAT))
-        return CAN_CHECK_OTHER;
-    const can_check_t check = check_p01(frame);
-    if (check != CAN_CHECK_OK)
-        return check;
-    const uint32_t state = can_field_get(frame, HEARTBEAT_STATE);
-    if (state > CAN_BOARD_FAULT)
-        return CAN_CHECK_VALUE;
-    *heartbeat = (can_heartbeat_t){
-        .node = (uint8_t)(frame->id - CAN_ID_HEARTBEAT),
-        .counter = (uint8_t)can_field_get(frame, P01_COUNTER),
-        .state = (can_board_state_t)state,
-        .fault_flags = can_field_get(frame, HEARTBEAT_FAULTS),
-        .frame_number = can_field_get(frame, HEARTBEAT_FRAME),
-        .uptime_s = can_field_get(frame, HEARTBEAT_UPTIME),
-    };
-    return CAN_CHECK_OK;
-}
-
-bool can_status_encode(hal_can_frame_t *frame, const can_status_t *status)
-{
-    if (!is_node(status->node) || status->counter >= CAN_E2E_P01_COUNTERS)
-        return false;
-    const uint32_t warp_time = (uint32_t)(((uint64_t)status->warp_time_us + 50) / 100);
-    *frame = classic_frame(CAN_ID_STATUS + (uint32_t)status->node, status->counter);
-    can_field_put(frame, STATUS_WARP_TIME, can_field_saturated(STATUS_WARP_TIME, warp_time));
-    can_field_put(frame, STATUS_POSE_AGE, can_field_saturated(STATUS_POSE_AGE, status->pose_age_ms));
-    can_field_put(frame, STATUS_STEP, can_field_saturated(STATUS_STEP, status->step_q8));
-    can_field_put(frame, STATUS_FAULTS, status->can_faults);
-    can_field_put(frame, STATUS_POSE_COUNTER, status->pose_counter);
-    protect_p01(frame);
-    return true;
-}
-
-can_check_t can_status_decode(can_status_t *status, const hal_can_frame_t *frame)
-{
-    if (frame->extended || frame->id < CAN_ID_STATUS || !is_node(frame->id - CAN_ID_STATUS))
-        return CAN_CHECK_OTHER;
-    const can_check_t check = check_p01(frame);
-    if (check != CAN_CHECK_OK)
-        return check;
-    *status = (can_status_t){
-        .node = (uint8_t)(frame->id - CAN_ID_STATUS),
-        .counter = (uint8_t)can_field_get(frame, P01_COUNTER),
-        .pose_counter = (uint8_t)can_field_get(frame, STATUS_POSE_COUNTER),
-        .pose_age_ms = can_field_get(frame, STATUS_POSE_AGE),
-        .step_q8 = can_field_get(frame, STATUS_STEP),
-        .warp_time_us = can_field_get(frame, STATUS_WARP_TIME) * 100,
-        .can_faults = can_field_get(frame, STATUS_FAULTS),
-    };
     return CAN_CHECK_OK;
 }

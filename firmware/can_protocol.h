@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "firmware/can_e2e.h"
+#include "firmware/stage_times.h"
 #include "hal/hal_can.h"
 #include "warp_fixed/homography_from_pose.h"
 
@@ -18,11 +19,13 @@ enum {
     CAN_ID_POSE_FD = 0x100,   /**< + viewer: the pose as one CAN FD frame of 32 bytes */
     CAN_ID_POSE_SET = 0x110,  /**< + 4 * viewer + part: the pose as three classic frames */
     CAN_ID_STATUS = 0x400,    /**< + node */
+    CAN_ID_STAGE = 0x440,     /**< + node */
     CAN_ID_HEARTBEAT = 0x700, /**< + node */
     CAN_VIEWERS = 4,          /**< there is room for viewers 0 to 3 */
     CAN_MAX_NODE = 63,        /**< node numbers are 1 to 63 */
     CAN_POSE_PARTS = 3,       /**< frames of a set: A, B, C */
     CAN_STATUS_PERIOD_MS = 100,
+    CAN_STAGE_PERIOD_MS = 250,
     CAN_HEARTBEAT_PERIOD_MS = 500
 };
 
@@ -147,5 +150,22 @@ typedef struct {
 bool can_status_encode(hal_can_frame_t *frame, const can_status_t *status);
 
 can_check_t can_status_decode(can_status_t *status, const hal_can_frame_t *frame);
+
+/** Where a board's time goes: one stage every CAN_STAGE_PERIOD_MS, in turn, all of one second. What is too large for
+ * its field is sent as the largest value. */
+typedef struct {
+    uint8_t node;     /**< 1 to CAN_MAX_NODE */
+    uint8_t counter;  /**< 0 to 14 */
+    stage_t stage;    /**< whose times these are */
+    uint32_t mean_us; /**< of the second's steps; up to 65535 */
+    uint32_t worst_us;
+    uint32_t shown; /**< pictures shown in the second, up to 255 */
+    uint32_t late;  /**< of them after the vertical blank that they were made for */
+} can_stage_t;
+
+/** @return false when node, counter or stage is out of range. */
+bool can_stage_encode(hal_can_frame_t *frame, const can_stage_t *stage);
+
+can_check_t can_stage_decode(can_stage_t *stage, const hal_can_frame_t *frame);
 
 #endif

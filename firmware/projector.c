@@ -16,6 +16,8 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
     projector->has_picture = false;
     projector->picture_us = hal_time_now_us(devices->clock);
     projector->report = (projector_report_t){.state = CAN_BOARD_WAITING};
+    stage_times_init(&projector->stage_times);
+    projector->shown_us = projector->picture_us;
     projector->faults = (projector_faults_t){.camera = 0};
     projector->can_faults = (can_faults_t){.length = 0};
     telemetry_init(&projector->telemetry, projector->picture_us);
@@ -74,29 +76,40 @@ static bool draw_corrected(projector_t *p, const image_t *panel)
 
 static void draw(projector_t *p, const image_t *panel)
 {
-    const int64_t begin_us = hal_time_now_us(p->board.clock);
     const bool wanted = p->report.state == CAN_BOARD_RUNNING || p->report.state == CAN_BOARD_HOLDING;
     p->report.corrected = wanted && draw_corrected(p, panel);
     if (wanted && !p->report.corrected)
         p->report.state = CAN_BOARD_FAULT;
     if (!p->report.corrected)
         safe_picture_draw(panel, p->node);
-    p->report.warp_time_us = hal_time_now_us(p->board.clock) - begin_us;
+}
+
+/* End a stage that began at begin_us. @return When it ended. */
+static int64_t end_stage(projector_t *p, stage_t stage, int64_t begin_us)
+{
+    const int64_t end_us = hal_time_now_us(p->board.clock);
+    p->report.times.us[stage] = end_us - begin_us;
+    return end_us;
 }
 
 /* A new picture on the wall from the next vertical blank on. @return Is the loop healthy? */
-static bool show(projector_t *p)
+static bool show(projector_t *p, int64_t begin_us)
 {
     image_t panel;
     const int64_t deadline_us = hal_display_next_vblank_us(p->board.display);
     hal_status_t status = hal_display_back_buffer(p->board.display, &panel);
-    if (status == HAL_OK) {
+    if (status == HAL_OK)
         draw(p, &panel);
+    const int64_t drawn_us = end_stage(p, STAGE_WARP, begin_us);
+    if (status == HAL_OK)
         status = hal_display_present(p->board.display);
-    }
+    p->shown_us = end_stage(p, STAGE_SHOW, drawn_us);
+
+    p->report.times.shown = status == HAL_OK;
+    p->report.times.late = p->report.times.shown && p->shown_us > deadline_us;
     if (status == HAL_OK) {
         p->report.frame_number++;
-        p->faults.deadline += hal_time_now_us(p->board.clock) > deadline_us;
+        p->faults.deadline += p->report.times.late;
     } else {
         p->faults.display++;
         p->report.state = CAN_BOARD_FAULT;
@@ -121,15 +134,17 @@ static bool led_level(can_board_state_t state, int64_t now_us)
 
 void projector_step(projector_t *p)
 {
-    const int64_t now_us = hal_time_now_us(p->board.clock);
+    const int64_t now_us = end_stage(p, STAGE_WAIT, p->shown_us);
     drive(p, HAL_GPIO_STROBE, true);
     pose_from_can(&p->poses, p->board.can, &p->can_faults); /* bus -> newest checked pose */
     take_newest_picture(p, now_us);                         /* camera -> newest picture, or the last good one */
     p->report.state = state_now(p, now_us);
-    const bool healthy = show(p); /* pose and picture -> homography, grid, prefilter, resample -> display */
+    const int64_t posed_us = end_stage(p, STAGE_POSE, now_us);
+    const bool healthy = show(p, posed_us); /* pose and picture -> homography, grid, prefilter, resample -> display */
+    stage_times_add(&p->stage_times, &p->report.times);
     drive(p, HAL_GPIO_STROBE, false);
     drive(p, HAL_GPIO_LED, led_level(p->report.state, now_us));
-    telemetry_send(p, now_us); /* heartbeat and status -> bus */
+    telemetry_send(p, now_us); /* heartbeat, status, stages -> bus */
     if (healthy && hal_watchdog_feed(p->board.watchdog) != HAL_OK)
         p->faults.watchdog++;
 }

@@ -9,6 +9,7 @@
 #include "firmware/can_protocol.h"
 #include "firmware/pose_from_can.h"
 #include "firmware/room.h"
+#include "firmware/stage_times.h"
 #include "firmware/telemetry.h"
 #include "hal/hal_board.h"
 #include "warp_fixed/warp.h"
@@ -39,7 +40,7 @@ typedef struct {
     uint32_t frame_number; /**< pictures presented since start */
     can_pose_t pose;       /**< that it was warped with */
     warp_report_t warp;
-    int64_t warp_time_us;
+    stage_step_t times; /**< its stages, and the wait before it */
 } projector_report_t;
 
 /** About 158 MB, one static instance on a board; the simulator makes one for each of its boards before it starts. */
@@ -57,6 +58,8 @@ struct projector {
     warp_t warp;
 
     projector_report_t report;
+    stage_times_t stage_times; /**< since the last report of them */
+    int64_t shown_us;          /**< end of STAGE_SHOW, in the step before */
     projector_faults_t faults;
     can_faults_t can_faults;
     telemetry_t telemetry;

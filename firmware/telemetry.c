@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heartbeat and status of a board, onto the bus.
+// What a board says of itself, onto the bus.
 #include "firmware/telemetry.h"
 
 #include "firmware/can_e2e.h"
@@ -7,7 +7,12 @@
 
 void telemetry_init(telemetry_t *telemetry, int64_t now_us)
 {
-    *telemetry = (telemetry_t){.start_us = now_us, .heartbeat_due_us = now_us, .status_due_us = now_us};
+    *telemetry = (telemetry_t){
+        .start_us = now_us,
+        .heartbeat_due_us = now_us,
+        .status_due_us = now_us,
+        .stage_due_us = now_us + STAGES * CAN_STAGE_PERIOD_MS * 1000,
+    };
 }
 
 /* Has the count moved since the last heartbeat? */
@@ -72,12 +77,33 @@ static void send_status(projector_t *p, int64_t now_us)
         .pose_counter = p->report.pose.counter,
         .pose_age_ms = pose_age_ms(p, now_us),
         .step_q8 = (uint32_t)step_q16 >> 8,
-        .warp_time_us = (uint32_t)p->report.warp_time_us,
+        .warp_time_us = (uint32_t)p->report.times.us[STAGE_WARP],
         .can_faults = can_faults_total(&p->can_faults),
     };
     t->status_counter = (uint8_t)((t->status_counter + 1) % CAN_E2E_P01_COUNTERS);
     hal_can_frame_t frame;
     send(p, can_status_encode(&frame, &status), &frame);
+}
+
+/* The stages in turn; with the first of them a second ends. */
+static void send_stage(projector_t *p)
+{
+    telemetry_t *t = &p->telemetry;
+    if (t->stage == 0)
+        t->figures = stage_times_close(&p->stage_times);
+    const can_stage_t stage = {
+        .node = (uint8_t)p->node,
+        .counter = t->stage_counter,
+        .stage = t->stage,
+        .mean_us = t->figures.mean_us[t->stage],
+        .worst_us = t->figures.worst_us[t->stage],
+        .shown = t->figures.shown,
+        .late = t->figures.late,
+    };
+    t->stage = (stage_t)((t->stage + 1) % STAGES);
+    t->stage_counter = (uint8_t)((t->stage_counter + 1) % CAN_E2E_P01_COUNTERS);
+    hal_can_frame_t frame;
+    send(p, can_stage_encode(&frame, &stage), &frame);
 }
 
 void telemetry_send(projector_t *projector, int64_t now_us)
@@ -86,6 +112,12 @@ void telemetry_send(projector_t *projector, int64_t now_us)
     if (now_us >= t->status_due_us) {
         t->status_due_us = now_us + CAN_STATUS_PERIOD_MS * 1000;
         send_status(projector, now_us);
+    }
+    if (now_us >= t->stage_due_us) {
+        t->stage_due_us += CAN_STAGE_PERIOD_MS * 1000; /* so that four are a second */
+        if (t->stage_due_us <= now_us)
+            t->stage_due_us = now_us + CAN_STAGE_PERIOD_MS * 1000;
+        send_stage(projector);
     }
     if (now_us >= t->heartbeat_due_us) {
         t->heartbeat_due_us = now_us + CAN_HEARTBEAT_PERIOD_MS * 1000;

@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heartbeat and status of a board, onto the bus.
+// What a board says of itself, onto the bus.
 #ifndef FIRMWARE_TELEMETRY_H
 #define FIRMWARE_TELEMETRY_H
 
 #include <stdint.h>
+
+#include "firmware/stage_times.h"
 
 typedef struct projector projector_t;
 
 /** When what was last sent, and the fault counts at the last heartbeat. */
 typedef struct {
     int64_t start_us;
-    int64_t heartbeat_due_us, status_due_us;
-    uint8_t heartbeat_counter, status_counter;
+    int64_t heartbeat_due_us, status_due_us, stage_due_us;
+    uint8_t heartbeat_counter, status_counter, stage_counter;
+    stage_t stage;           /**< the next to be sent */
+    stage_figures_t figures; /**< of the second that is being sent */
     uint32_t seen_bus, seen_bus_off, seen_display, seen_gpio, seen_watchdog, seen_deadline;
 } telemetry_t;
 
-/** Start to count from now on; the first messages are due at once. */
+/** Start to count from now on; the first messages are due at once, those of the stages after the first second. */
 void telemetry_init(telemetry_t *telemetry, int64_t now_us);
 
-/** Send what is due: a status every CAN_STATUS_PERIOD_MS, a heartbeat every CAN_HEARTBEAT_PERIOD_MS. Never blocks. */
+/** Send what is due: status, heartbeat and stages, each after its CAN_..._PERIOD_MS. Never blocks. */
 void telemetry_send(projector_t *projector, int64_t now_us);
 
 #endif

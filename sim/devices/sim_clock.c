@@ -57,6 +57,12 @@ void sim_clock_set_us(hal_time_t *clock, int64_t time_us)
     clock->now_us = time_us;
 }
 
+void sim_clock_work(hal_time_t *clock, int64_t work_us)
+{
+    if (!clock->settings.real)
+        clock->now_us += work_us;
+}
+
 /* Never goes back: in the time that the drift takes away one microsecond, at least 100 pass. */
 int64_t sim_clock_shows_us(const hal_time_t *clock, int64_t time_us)
 {

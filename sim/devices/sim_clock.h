@@ -31,6 +31,10 @@ void sim_clock_destroy(hal_time_t *clock);
 /** Set a virtual clock's t. Must not go back, nor be called for a real clock: both are bugs of the caller. */
 void sim_clock_set_us(hal_time_t *clock, int64_t time_us);
 
+/** Let a virtual clock's t move on while its board is at work; a real one moves by itself. @param work_us  0 or more.
+ */
+void sim_clock_work(hal_time_t *clock, int64_t work_us);
+
 /** @return What the board's clock shows when the simulation's time is t; for any t from the epoch on. */
 int64_t sim_clock_shows_us(const hal_time_t *clock, int64_t time_us);
 

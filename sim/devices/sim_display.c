@@ -145,6 +145,7 @@ hal_status_t hal_display_back_buffer(hal_display_t *display, image_t *buffer)
     if (display->borrowed == NONE)
         return HAL_FULL;
     *buffer = display->buffers[display->borrowed];
+    sim_clock_work(display->settings.clock, display->faults.drawing_us);
     return HAL_OK;
 }
 

@@ -15,9 +15,9 @@
  * the same blank takes its place. Borrowing again without presenting gives the same buffer again.
  */
 typedef struct {
-    int32_t width, height;   /**< of the panel, pixels */
-    const hal_time_t *clock; /**< the board's; must outlive the display */
-    sim_rate_t blanks;       /**< vertical blanks, on that clock: rate and phase */
+    int32_t width, height; /**< of the panel, pixels */
+    hal_time_t *clock;     /**< the board's; must outlive the display */
+    sim_rate_t blanks;     /**< vertical blanks, on that clock: rate and phase */
 
     /**
      * With a real clock: called by hal_display_wait_vblank() before it sleeps, so that a program without a simulator
@@ -33,6 +33,7 @@ typedef struct {
     uint32_t refuse_next;       /**< refuse this many presented pictures with HAL_IO; counts down */
     uint32_t late_next;         /**< this many flips come late; counts down */
     uint32_t late_blanks;       /**< by how many blanks a late flip is late; 0 stands for 1 */
+    uint32_t drawing_us;        /**< a slow board: a virtual clock moves on by this as each back buffer is borrowed */
 } sim_display_faults_t;
 
 typedef struct {

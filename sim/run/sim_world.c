@@ -14,6 +14,7 @@ typedef struct {
     hal_board_t devices;
     projector_t *projector;
     int64_t step_time_us;
+    bool busy; /* with its last step, in virtual time */
 } node_t;
 
 struct sim_world {
@@ -138,7 +139,11 @@ bool sim_world_advance(sim_world_t *world, int64_t now_us, char error[FILE_ERROR
     bool ok = true;
     sim_bus_advance(world->bus, now_us);
     for (int32_t i = 0; i < world->config.room->board_count; i++) {
-        const hal_board_t *devices = &world->node[i].devices;
+        node_t *node = &world->node[i];
+        const hal_board_t *devices = &node->devices;
+        node->busy = !world->config.real && hal_time_now_us(devices->clock) > now_us;
+        if (node->busy)
+            continue;
         if (!world->config.real)
             sim_clock_set_us(devices->clock, now_us);
         sim_display_advance(devices->display, now_us);
@@ -149,6 +154,8 @@ bool sim_world_advance(sim_world_t *world, int64_t now_us, char error[FILE_ERROR
 
 void sim_world_step_board(sim_world_t *world, int32_t board)
 {
+    if (world->node[board].busy)
+        return;
     const int64_t begin_us = sim_clock_monotonic_us();
     projector_step(world->node[board].projector);
     world->node[board].step_time_us = sim_clock_monotonic_us() - begin_us;

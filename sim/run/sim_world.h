@@ -48,7 +48,8 @@ const hal_board_t *sim_world_devices(const sim_world_t *world, int32_t board);
 const projector_t *sim_world_projector(const sim_world_t *world, int32_t board);
 
 /**
- * Bring bus, clocks, displays and cameras to now_us.
+ * Bring bus, clocks, displays and cameras to now_us; in virtual time not those of a board whose clock is ahead, because
+ * its last step took longer than a refresh (sim_display_faults_t.drawing_us).
  *
  * @param      now_us  Just after a vertical blank; never less than at the last call.
  * @param[out] error   On failure: a camera could not read its video.
@@ -56,7 +57,7 @@ const projector_t *sim_world_projector(const sim_world_t *world, int32_t board);
  */
 bool sim_world_advance(sim_world_t *world, int64_t now_us, char error[FILE_ERROR_LENGTH]);
 
-/** Let one board do one projector_step(). */
+/** Let one board do one projector_step(); none while it is still at work on its last one. */
 void sim_world_step_board(sim_world_t *world, int32_t board);
 
 /** One refresh: sim_world_advance(), then a step of every board, in the order of the room file. */

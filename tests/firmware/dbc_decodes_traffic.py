@@ -45,13 +45,15 @@ def expected_crc(profile, data_id, data):
 
 
 def read_frames(program):
-    """[(message, identifier, fd, cycle in ms, data, {signal: value})], as print_frames writes them."""
+    """[(message, identifier, fd, cycle in ms, data, {signal: value}, {signal: name of the value})]: print_frames'."""
     frames = []
     for line in subprocess.run([program], check=True, capture_output=True, text=True).stdout.splitlines():
         kind, *words = line.split()
         if kind == "frame":
             name, identifier, fd, cycle, data = words
-            frames.append((name, int(identifier), fd == "1", int(cycle), bytes.fromhex(data), {}))
+            frames.append((name, int(identifier), fd == "1", int(cycle), bytes.fromhex(data), {}, {}))
+        elif kind == "named":
+            frames[-1][6][words[0]] = words[1]
         else:
             frames[-1][5][words[0]] = decimal.Decimal(words[1])
     return frames
@@ -69,7 +71,7 @@ def check_layout(tally, message):
 
 
 def check_frame(tally, message, frame):
-    name, identifier, fd, cycle, data, signals = frame
+    name, identifier, fd, cycle, data, signals, names = frame
     tally.check(f"{name} identifier", message.arbitration_id.id, identifier)
     tally.check(f"{name} extended", bool(message.arbitration_id.extended), False)
     tally.check(f"{name} length", message.size, len(data))
@@ -87,6 +89,8 @@ def check_frame(tally, message, frame):
         described = message.signal_by_name(signal)
         tally.check(f"{name}.{signal}", decimal.Decimal(str(decoded[signal].phys_value)), value)
         tally.check(f"{name}.{signal} in its range", described.min <= value <= described.max, True)
+    for signal, text in names.items():
+        tally.check(f"{name}.{signal} name", decoded[signal].named_value, text)
 
 
 def main():

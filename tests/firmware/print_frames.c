@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prints encoded frames beside the values that went into them, for dbc_decodes_traffic.py to compare.
 //
-// Lines: "frame MESSAGE ID FD CYCLE_MS HEX", then "signal NAME VALUE" for what that frame must say. The values are in
-// the DBC file's units, written down by hand here.
+// Lines: "frame MESSAGE ID FD CYCLE_MS HEX", then "signal NAME VALUE" for what that frame must say, and "named NAME
+// TEXT" for what the DBC file calls that value. The values are in the DBC file's units, written down by hand here.
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -82,6 +82,26 @@ static void print_status(void)
            "signal StatusCanFaults 1000\nsignal StatusPoseCounter 201\n");
 }
 
+static void print_stages(void)
+{
+    static const char *const NAME[STAGES] = {"Pose", "Warp", "Show", "Wait"};
+    for (int i = 0; i < STAGES; i++) {
+        hal_can_frame_t frame;
+        const can_stage_t stage = {.node = 1,
+                                   .counter = (uint8_t)(3 + i),
+                                   .stage = (stage_t)i,
+                                   .mean_us = 8301,
+                                   .worst_us = 54321,
+                                   .shown = 60,
+                                   .late = 201};
+        check(can_stage_encode(&frame, &stage));
+        print_frame("Stage", &frame, CAN_STAGE_PERIOD_MS);
+        printf("signal StageCounter %d\nsignal StageNumber %d\nsignal StageMean 8301\nsignal StageWorst 54321\n"
+               "signal StageShown 60\nsignal StageLate 201\nnamed StageNumber %s\n",
+               3 + i, i, NAME[i]);
+    }
+}
+
 /* One heartbeat for each fault flag, so that no two flags can be confused. */
 static void print_heartbeats(void)
 {
@@ -118,6 +138,7 @@ int main(void)
     print_fd();
     print_set();
     print_status();
+    print_stages();
     print_heartbeats();
     return 0;
 }

@@ -15,8 +15,9 @@ static const uint64_t SEED = 20240131;
 static const can_heartbeat_t HEARTBEAT = {
     .node = 63, .counter = 14, .state = CAN_BOARD_RUNNING, .frame_number = 0x1234};
 static const can_status_t STATUS = {.node = 1, .counter = 3, .step_q8 = 700, .warp_time_us = 12300};
+static const can_stage_t STAGE_SENT = {.node = 1, .counter = 3, .stage = STAGE_WARP, .mean_us = 12300, .shown = 60};
 
-typedef enum { SET_A, SET_B, SET_C, FD, HEART, STAT, MESSAGES } message_t;
+typedef enum { SET_A, SET_B, SET_C, FD, HEART, STAT, STAGE, MESSAGES } message_t;
 
 static void encode_one(hal_can_frame_t *frame, message_t message, const can_pose_t *pose)
 {
@@ -35,8 +36,11 @@ static void encode_one(hal_can_frame_t *frame, message_t message, const can_pose
         assert_true(can_heartbeat_encode(frame, &HEARTBEAT));
         break;
     case STAT:
-    case MESSAGES:
         assert_true(can_status_encode(frame, &STATUS));
+        break;
+    case STAGE:
+    case MESSAGES:
+        assert_true(can_stage_encode(frame, &STAGE_SENT));
         break;
     }
 }
@@ -49,9 +53,10 @@ static can_check_t decode_any(const hal_can_frame_t *frame, uint8_t viewer)
     can_pose_t pose;
     can_heartbeat_t heartbeat;
     can_status_t status;
+    can_stage_t stage;
     const can_check_t check[] = {can_pose_part_check(frame, viewer, &part, &counter),
                                  can_pose_fd_decode(&pose, frame, viewer), can_heartbeat_decode(&heartbeat, frame),
-                                 can_status_decode(&status, frame)};
+                                 can_status_decode(&status, frame), can_stage_decode(&stage, frame)};
     for (size_t i = 0; i < sizeof check / sizeof check[0]; i++)
         if (check[i] != CAN_CHECK_OTHER)
             return check[i];
@@ -146,6 +151,13 @@ static void test_reserved_values_under_a_right_crc_are_refused(void **state)
     sign_p01(&frame);
     assert_int_equal(can_heartbeat_decode(&heartbeat, &frame), CAN_CHECK_VALUE);
     assert_int_equal(heartbeat.node, 77);
+
+    can_stage_t stage = {.node = 77};
+    assert_true(can_stage_encode(&frame, &STAGE_SENT));
+    frame.data[1] = 0x43; /* stage 4 */
+    sign_p01(&frame);
+    assert_int_equal(can_stage_decode(&stage, &frame), CAN_CHECK_VALUE);
+    assert_int_equal(stage.node, 77);
 }
 
 static void test_parts_of_different_sets_and_wrong_order_are_refused(void **state)

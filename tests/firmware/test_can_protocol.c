@@ -224,6 +224,41 @@ static void test_status_comes_back_saturated(void **state)
     assert_false(can_status_encode(&frame, &large));
 }
 
+static void test_stages_come_back_saturated(void **state)
+{
+    (void)state;
+    const can_stage_t stage = {
+        .node = 9, .counter = 14, .stage = STAGE_WAIT, .mean_us = 65535, .worst_us = 1, .shown = 255, .late = 254};
+    hal_can_frame_t frame;
+    can_stage_t got;
+    assert_true(can_stage_encode(&frame, &stage));
+    assert_int_equal(frame.id, 0x449);
+    assert_int_equal(can_stage_decode(&got, &frame), CAN_CHECK_OK);
+    assert_int_equal(got.node, 9);
+    assert_int_equal(got.counter, 14);
+    assert_int_equal(got.stage, STAGE_WAIT);
+    assert_int_equal(got.mean_us, 65535);
+    assert_int_equal(got.worst_us, 1);
+    assert_int_equal(got.shown, 255);
+    assert_int_equal(got.late, 254);
+
+    can_stage_t large = stage;
+    large.mean_us = large.worst_us = large.shown = large.late = 65536;
+    assert_true(can_stage_encode(&frame, &large));
+    assert_int_equal(can_stage_decode(&got, &frame), CAN_CHECK_OK);
+    assert_int_equal(got.mean_us, 65535);
+    assert_int_equal(got.worst_us, 65535);
+    assert_int_equal(got.shown, 255);
+    assert_int_equal(got.late, 255);
+
+    can_stage_t bad[3] = {stage, stage, stage};
+    bad[0].node = 0;
+    bad[1].counter = 15;
+    bad[2].stage = STAGES;
+    for (int i = 0; i < 3; i++)
+        assert_false(can_stage_encode(&frame, &bad[i]));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -235,6 +270,7 @@ int main(void)
         cmocka_unit_test(test_values_that_do_not_fit_are_refused),
         cmocka_unit_test(test_heartbeat_comes_back),
         cmocka_unit_test(test_status_comes_back_saturated),
+        cmocka_unit_test(test_stages_come_back_saturated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

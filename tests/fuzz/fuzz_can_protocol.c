@@ -75,6 +75,20 @@ static void check_status(const hal_can_frame_t *frame)
                "a status stays the same");
 }
 
+static void check_stage(const hal_can_frame_t *frame)
+{
+    can_stage_t stage, again;
+    hal_can_frame_t encoded;
+    if (can_stage_decode(&stage, frame) != CAN_CHECK_OK)
+        return;
+    fuzz_check(can_stage_encode(&encoded, &stage), "a decoded stage can be encoded");
+    fuzz_check(can_stage_decode(&again, &encoded) == CAN_CHECK_OK, "an encoded stage can be decoded");
+    fuzz_check(stage.node == again.node && stage.counter == again.counter && stage.stage == again.stage &&
+                   stage.mean_us == again.mean_us && stage.worst_us == again.worst_us && stage.shown == again.shown &&
+                   stage.late == again.late,
+               "a stage stays the same");
+}
+
 /* A pose with any numbers in it: the encoders refuse it, or what they write decodes. */
 static void check_encoders(input_t *input)
 {
@@ -108,6 +122,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             check_part(&frame[i], viewer);
             check_heartbeat(&frame[i]);
             check_status(&frame[i]);
+            check_stage(&frame[i]);
         }
         check_pose_set(frame, viewer);
     }

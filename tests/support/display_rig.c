@@ -16,7 +16,7 @@ int64_t display_rig_blank_us(int64_t n)
     return 3000 + 10000 * n;
 }
 
-sim_display_settings_t display_rig_settings(const hal_time_t *clock)
+sim_display_settings_t display_rig_settings(hal_time_t *clock)
 {
     return (sim_display_settings_t){
         .width = DISPLAY_RIG_WIDTH, .height = DISPLAY_RIG_HEIGHT, .clock = clock, .blanks = {3000, 100, 1}};

@@ -17,7 +17,7 @@ typedef struct {
 int64_t display_rig_blank_us(int64_t n);
 
 /** What display_rig_open() makes its display with. */
-sim_display_settings_t display_rig_settings(const hal_time_t *clock);
+sim_display_settings_t display_rig_settings(hal_time_t *clock);
 
 /** Make a virtual clock that starts at epoch_us, and a display. The test fails when that fails. */
 display_rig_t display_rig_open(int64_t epoch_us);

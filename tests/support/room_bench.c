@@ -10,9 +10,6 @@
 #include <cmocka.h>
 
 #include "firmware/safe_picture.h"
-#include "sim/devices/sim_camera.h"
-#include "sim/devices/sim_clock.h"
-#include "sim/devices/sim_display.h"
 #include "tests/support/scratch.h"
 
 static const char room_text[] =
@@ -37,6 +34,7 @@ static void listen(void *context, int sender, const hal_can_frame_t *frame)
         room_bench_voice_t *voice = &bench->voice[i];
         can_heartbeat_t heartbeat;
         can_status_t status;
+        can_stage_t stage;
         if (can_heartbeat_decode(&heartbeat, frame) == CAN_CHECK_OK && heartbeat.node == bench->room.board[i].node) {
             voice->heartbeats++;
             voice->flags_ever |= heartbeat.fault_flags;
@@ -46,6 +44,10 @@ static void listen(void *context, int sender, const hal_can_frame_t *frame)
         if (can_status_decode(&status, frame) == CAN_CHECK_OK && status.node == bench->room.board[i].node) {
             voice->statuses++;
             voice->status = status;
+        }
+        if (can_stage_decode(&stage, frame) == CAN_CHECK_OK && stage.node == bench->room.board[i].node) {
+            voice->stages++;
+            voice->stage[stage.stage] = stage;
         }
     }
 }
@@ -128,12 +130,7 @@ void room_bench_advance(room_bench_t *bench)
     if (bench->tracking)
         send_pose(bench);
     sim_bus_advance(sim_world_bus(bench->world), now_us);
-    for (int i = 0; i < ROOM_BENCH_BOARDS; i++) {
-        const hal_board_t *devices = sim_world_devices(bench->world, i);
-        sim_clock_set_us(devices->clock, now_us);
-        sim_display_advance(devices->display, now_us);
-        assert_true(sim_camera_advance(devices->camera, now_us, error));
-    }
+    assert_true(sim_world_advance(bench->world, now_us, error));
 }
 
 void room_bench_step(room_bench_t *bench)

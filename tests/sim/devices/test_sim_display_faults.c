@@ -62,6 +62,22 @@ static void test_late_flips(void **state)
     display_rig_close(&rig);
 }
 
+static void test_a_slow_board_draws_for_so_long_and_misses_blanks(void **state)
+{
+    (void)state;
+    const display_rig_t rig = display_rig_open(DISPLAY_RIG_EPOCH_US);
+    assert_int_equal(display_rig_draw(&rig, 1), HAL_OK);
+    display_rig_go_to(&rig, display_rig_blank_us(1));
+    sim_display_faults(rig.display)->drawing_us = 25000; /* blanks are 10000 apart */
+    assert_int_equal(display_rig_draw(&rig, 2), HAL_OK);
+    assert_int_equal(hal_time_now_us(rig.clock), display_rig_blank_us(3) + 5000);
+    assert_int_equal(sim_display_counts(rig.display).missed, 2);
+    assert_int_equal(display_rig_wall(&rig), 1);
+    display_rig_go_to(&rig, display_rig_blank_us(4));
+    assert_int_equal(display_rig_wall(&rig), 2);
+    display_rig_close(&rig);
+}
+
 static void test_unplugged(void **state)
 {
     (void)state;
@@ -95,6 +111,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_refused_flips),
         cmocka_unit_test(test_late_flips),
+        cmocka_unit_test(test_a_slow_board_draws_for_so_long_and_misses_blanks),
         cmocka_unit_test(test_unplugged),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Encoders and decoders of the boards' reports in wallwarp.dbc.
+#include "firmware/can_classic.h"
+
+/* The signals of wallwarp.dbc. */
+static const can_field_t HEARTBEAT_STATE = {12, 4}, HEARTBEAT_FRAME = {16, 16}, HEARTBEAT_FAULTS = {32, 16},
+                         HEARTBEAT_UPTIME = {48, 16};
+
+static const can_field_t STATUS_WARP_TIME = {12, 10}, STATUS_POSE_AGE = {22, 10}, STATUS_STEP = {32, 14},
+                         STATUS_FAULTS = {46, 10}, STATUS_POSE_COUNTER = {56, 8};
+
+static const can_field_t STAGE_NUMBER = {12, 4}, STAGE_MEAN = {16, 16}, STAGE_WORST = {32, 16}, STAGE_SHOWN = {48, 8},
+                         STAGE_LATE = {56, 8};
+
+static bool is_node(uint32_t node)
+{
+    return node >= 1 && node <= CAN_MAX_NODE;
+}
+
+static bool header_fits(uint8_t node, uint8_t counter)
+{
+    return is_node(node) && counter < CAN_E2E_P01_COUNTERS;
+}
+
+/* Is it the report whose identifier is base + node, and whole? */
+static can_check_t check_report(const hal_can_frame_t *frame, uint32_t base)
+{
+    if (frame->extended || frame->id < base || !is_node(frame->id - base))
+        return CAN_CHECK_OTHER;
+    return can_classic_check(frame);
+}
+
+bool can_heartbeat_encode(hal_can_frame_t *frame, const can_heartbeat_t *heartbeat)
+{
+    if (!header_fits(heartbeat->node, heartbeat->counter) || (unsigned)heartbeat->state > CAN_BOARD_FAULT ||
+        heartbeat->fault_flags > UINT16_MAX)
+        return false;
+    *frame = can_classic_frame(CAN_ID_HEARTBEAT + (uint32_t)heartbeat->node, heartbeat->counter);
+    can_field_put(frame, HEARTBEAT_STATE, heartbeat->state);
+    can_field_put(frame, HEARTBEAT_FRAME, heartbeat->frame_number);
+    can_field_put(frame, HEARTBEAT_FAULTS, heartbeat->fault_flags);
+    can_field_put(frame, HEARTBEAT_UPTIME, heartbeat->uptime_s);
+    can_classic_protect(frame);
+    return true;
+}
+
+can_check_t can_heartbeat_decode(can_heartbeat_t *heartbeat, const hal_can_frame_t *frame)
+{
+    const can_check_t check = check_report(frame, CAN_ID_HEARTBEAT);
+    if (check != CAN_CHECK_OK)
+        return check;
+    const uint32_t state = can_field_get(frame, HEARTBEAT_STATE);
+    if (state > CAN_BOARD_FAULT)
+        return CAN_CHECK_VALUE;
+    *heartbeat = (can_heartbeat_t){
+        .node = (uint8_t)(frame->id - CAN_ID_HEARTBEAT),
+        .counter = can_classic_counter(frame),
+        .state = (can_board_state_t)state,
+        .fault_flags = can_field_get(frame, HEARTBEAT_FAULTS),
+        .frame_number = can_field_get(frame, HEARTBEAT_FRAME),
+        .uptime_s = can_field_get(frame, HEARTBEAT_UPTIME),
+    };
+    return CAN_CHECK_OK;
+}
+
+bool can_status_encode(hal_can_frame_t *frame, const can_status_t *status)
+{
+    if (!header_fits(status->node, status->counter))
+        return false;
+    const uint32_t warp_time = (uint32_t)(((uint64_t)status->warp_time_us + 50) / 100);
+    *frame = can_classic_frame(CAN_ID_STATUS + (uint32_t)status->node, status->counter);
+    can_field_put(frame, STATUS_WARP_TIME, can_field_saturated(STATUS_WARP_TIME, warp_time));
+    can_field_put(frame, STATUS_POSE_AGE, can_field_saturated(STATUS_POSE_AGE, status->pose_age_ms));
+    can_field_put(frame, STATUS_STEP, can_field_saturated(STATUS_STEP, status->step_q8));
+    can_field_put(frame, STATUS_FAULTS, status->can_faults);
+    can_field_put(frame, STATUS_POSE_COUNTER, status->pose_counter);
+    can_classic_protect(frame);
+    return true;
+}
+
+can_check_t can_status_decode(can_status_t *status, const hal_can_frame_t *frame)
+{
+    const can_check_t check = check_report(frame, CAN_ID_STATUS);
+    if (check != CAN_CHECK_OK)
+        return check;
+    *status = (can_status_t){
+        .node = (uint8_t)(frame->id - CAN_ID_STATUS),
+        .counter = can_classic_counter(frame),
+        .pose_counter = (uint8_t)can_field_get(frame, STATUS_POSE_COUNTER),
+        .pose_age_ms = can_field_get(frame, STATUS_POSE_AGE),
+        .step_q8 = can_field_get(frame, STATUS_STEP),
+        .warp_time_us = can_field_get(frame, STATUS_WARP_TIME) * 100,
+        .can_faults = can_field_get(frame, STATUS_FAULTS),
+    };
+    return CAN_CHECK_OK;
+}
+
+bool can_stage_encode(hal_can_frame_t *frame, const can_stage_t *stage)
+{
+    if (!header_fits(stage->node, stage->counter) || (unsigned)stage->stage >= STAGES)
+        return false;
+    *frame = can_classic_frame(CAN_ID_STAGE + (uint32_t)stage->node, stage->counter);
+    can_field_put(frame, STAGE_NUMBER, stage->stage);
+    can_field_put(frame, STAGE_MEAN, can_field_saturated(STAGE_MEAN, stage->mean_us));
+    can_field_put(frame, STAGE_WORST, can_field_saturated(STAGE_WORST, stage->worst_us));
+    can_field_put(frame, STAGE_SHOWN, can_field_saturated(STAGE_SHOWN, stage->shown));
+    can_field_put(frame, STAGE_LATE, can_field_saturated(STAGE_LATE, stage->late));
+    can_classic_protect(frame);
+    return true;
+}
+
+can_check_t can_stage_decode(can_stage_t *stage, const hal_can_frame_t *frame)
+{
+    const can_check_t check = check_report(frame, CAN_ID_STAGE);
+    if (check != CAN_CHECK_OK)
+        return check;
+    const uint32_t number = can_field_get(frame, STAGE_NUMBER);
+    if (number >= STAGES)
+        return CAN_CHECK_VALUE;
+    *stage = (can_stage_t){
+        .node = (uint8_t)(frame->id - CAN_ID_STAGE),
+        .counter = can_classic_counter(frame),
+        .stage = (stage_t)number,
+        .mean_us = can_field_get(frame, STAGE_MEAN),
+        .worst_us = can_field_get(frame, STAGE_WORST),
+        .shown = can_field_get(frame, STAGE_SHOWN),
+        .late = can_field_get(frame, STAGE_LATE),
+    };
+    return CAN_CHECK_OK;
+}
