@@ -10,9 +10,11 @@
 #include <stdint.h>
 
 #include "firmware/can_e2e.h"
+#include "firmware/degrade.h"
 #include "firmware/stage_times.h"
 #include "hal/hal_can.h"
 #include "warp_fixed/homography_from_pose.h"
+#include "warp_fixed/method.h"
 
 /** Identifiers (11 bits) and cycle times. */
 enum {
@@ -20,12 +22,14 @@ enum {
     CAN_ID_POSE_SET = 0x110,  /**< + 4 * viewer + part: the pose as three classic frames */
     CAN_ID_STATUS = 0x400,    /**< + node */
     CAN_ID_STAGE = 0x440,     /**< + node */
+    CAN_ID_QUALITY = 0x480,   /**< + node */
     CAN_ID_HEARTBEAT = 0x700, /**< + node */
     CAN_VIEWERS = 4,          /**< there is room for viewers 0 to 3 */
     CAN_MAX_NODE = 63,        /**< node numbers are 1 to 63 */
     CAN_POSE_PARTS = 3,       /**< frames of a set: A, B, C */
     CAN_STATUS_PERIOD_MS = 100,
     CAN_STAGE_PERIOD_MS = 250,
+    CAN_QUALITY_PERIOD_MS = 1000,
     CAN_HEARTBEAT_PERIOD_MS = 500
 };
 
@@ -167,5 +171,22 @@ typedef struct {
 bool can_stage_encode(hal_can_frame_t *frame, const can_stage_t *stage);
 
 can_check_t can_stage_decode(can_stage_t *stage, const hal_can_frame_t *frame);
+
+/** What a board corrects with, every CAN_QUALITY_PERIOD_MS. What is too large for its field is sent as the largest. */
+typedef struct {
+    uint8_t node;    /**< 1 to CAN_MAX_NODE */
+    uint8_t counter; /**< 0 to 14 */
+    uint8_t step;    /**< down from the room's method, 0 to DEGRADE_MAX_STEPS - 1 */
+    warp_filter_t filter;
+    warp_resampler_t resampler;
+    uint32_t changes;   /**< of the step since start; sent modulo 2^16 */
+    uint32_t wanted_us; /**< what the room's method is expected to take, all stages but the wait; up to 65535 */
+    uint32_t hold_s;    /**< how long a better step must be within reach before it is taken; in units of 4 s */
+} can_quality_t;
+
+/** @return false when node, counter, step or method is out of range. */
+bool can_quality_encode(hal_can_frame_t *frame, const can_quality_t *quality);
+
+can_check_t can_quality_decode(can_quality_t *quality, const hal_can_frame_t *frame);
 
 #endif

@@ -12,6 +12,11 @@ static const can_field_t STATUS_WARP_TIME = {12, 10}, STATUS_POSE_AGE = {22, 10}
 static const can_field_t STAGE_NUMBER = {12, 4}, STAGE_MEAN = {16, 16}, STAGE_WORST = {32, 16}, STAGE_SHOWN = {48, 8},
                          STAGE_LATE = {56, 8};
 
+static const can_field_t QUALITY_STEP = {12, 4}, QUALITY_RESAMPLER = {16, 4}, QUALITY_FILTER = {20, 4},
+                         QUALITY_CHANGES = {24, 16}, QUALITY_WANTED = {40, 16}, QUALITY_HOLD = {56, 8};
+
+enum { HOLD_UNIT_S = 4 };
+
 static bool is_node(uint32_t node)
 {
     return node >= 1 && node <= CAN_MAX_NODE;
@@ -125,6 +130,44 @@ can_check_t can_stage_decode(can_stage_t *stage, const hal_can_frame_t *frame)
         .worst_us = can_field_get(frame, STAGE_WORST),
         .shown = can_field_get(frame, STAGE_SHOWN),
         .late = can_field_get(frame, STAGE_LATE),
+    };
+    return CAN_CHECK_OK;
+}
+
+bool can_quality_encode(hal_can_frame_t *frame, const can_quality_t *quality)
+{
+    if (!header_fits(quality->node, quality->counter) || quality->step >= DEGRADE_MAX_STEPS ||
+        (unsigned)quality->filter > WARP_FILTER_BUTTER || (unsigned)quality->resampler > WARP_AUTO)
+        return false;
+    *frame = can_classic_frame(CAN_ID_QUALITY + (uint32_t)quality->node, quality->counter);
+    can_field_put(frame, QUALITY_STEP, quality->step);
+    can_field_put(frame, QUALITY_RESAMPLER, quality->resampler);
+    can_field_put(frame, QUALITY_FILTER, quality->filter);
+    can_field_put(frame, QUALITY_CHANGES, quality->changes);
+    can_field_put(frame, QUALITY_WANTED, can_field_saturated(QUALITY_WANTED, quality->wanted_us));
+    can_field_put(frame, QUALITY_HOLD, can_field_saturated(QUALITY_HOLD, quality->hold_s / HOLD_UNIT_S));
+    can_classic_protect(frame);
+    return true;
+}
+
+can_check_t can_quality_decode(can_quality_t *quality, const hal_can_frame_t *frame)
+{
+    const can_check_t check = check_report(frame, CAN_ID_QUALITY);
+    if (check != CAN_CHECK_OK)
+        return check;
+    const uint32_t step = can_field_get(frame, QUALITY_STEP), filter = can_field_get(frame, QUALITY_FILTER),
+                   resampler = can_field_get(frame, QUALITY_RESAMPLER);
+    if (step >= DEGRADE_MAX_STEPS || filter > WARP_FILTER_BUTTER || resampler > WARP_AUTO)
+        return CAN_CHECK_VALUE;
+    *quality = (can_quality_t){
+        .node = (uint8_t)(frame->id - CAN_ID_QUALITY),
+        .counter = can_classic_counter(frame),
+        .step = (uint8_t)step,
+        .filter = (warp_filter_t)filter,
+        .resampler = (warp_resampler_t)resampler,
+        .changes = can_field_get(frame, QUALITY_CHANGES),
+        .wanted_us = can_field_get(frame, QUALITY_WANTED),
+        .hold_s = can_field_get(frame, QUALITY_HOLD) * HOLD_UNIT_S,
     };
     return CAN_CHECK_OK;
 }

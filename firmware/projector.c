@@ -4,6 +4,8 @@
 
 #include "firmware/safe_picture.h"
 
+_Static_assert((int)LADDER_STEPS <= (int)DEGRADE_MAX_STEPS, "every ladder must fit");
+
 void projector_init(projector_t *projector, const room_t *room, const room_board_t *board, const hal_board_t *devices,
                     const warp_kernels_t *kernels)
 {
@@ -23,6 +25,17 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
     telemetry_init(&projector->telemetry, projector->picture_us);
     warp_init(&projector->warp, *board->method, board->step_all, board->border);
     warp_set_ls_weights(&projector->warp, &board->ls_weights);
+    projector->ladder = ladder_of(board->method);
+    ladder_t *ladder = &projector->ladder;
+    for (int32_t step = 1; step < ladder->steps; step++)
+        if (!warp_add_method(&projector->warp, *ladder->method[step]))
+            ladder->steps = step; /* a test holds that there is room for all */
+    degrade_init(&projector->degrade, ladder->steps);
+}
+
+void projector_keep_method(projector_t *projector)
+{
+    degrade_init(&projector->degrade, 1);
 }
 
 /* Keep the camera's newest picture; while it has none, the last good one stays. */
@@ -92,11 +105,10 @@ static int64_t end_stage(projector_t *p, stage_t stage, int64_t begin_us)
     return end_us;
 }
 
-/* A new picture on the wall from the next vertical blank on. @return Is the loop healthy? */
-static bool show(projector_t *p, int64_t begin_us)
+/* A new picture on the wall from the vertical blank at deadline_us on. @return Is the loop healthy? */
+static bool show(projector_t *p, int64_t begin_us, int64_t deadline_us)
 {
     image_t panel;
-    const int64_t deadline_us = hal_display_next_vblank_us(p->board.display);
     hal_status_t status = hal_display_back_buffer(p->board.display, &panel);
     if (status == HAL_OK)
         draw(p, &panel);
@@ -115,6 +127,31 @@ static bool show(projector_t *p, int64_t begin_us)
         p->report.state = CAN_BOARD_FAULT;
     }
     return status == HAL_OK || status == HAL_IO;
+}
+
+/* The method of the next picture: the board's own, or one that this board has the time for. */
+static void choose_method(projector_t *p, int64_t time_us)
+{
+    const int64_t *us = p->report.times.us;
+    if (!p->report.corrected || !p->report.times.shown)
+        return;
+    const ladder_frame_t work = {
+        .panel_pixels = p->wall.panel_width * p->wall.panel_height,
+        .lit_pixels = p->report.warp.lit_pixels,
+        .picture_pixels = p->camera.width * p->camera.height,
+        .k_q16 = p->warp.step_all ? p->report.warp.k_all_q16 : p->report.warp.k_in_q16,
+    };
+    degrade_frame_t frame = {
+        .busy_us = us[STAGE_POSE] + us[STAGE_WARP] + us[STAGE_SHOW],
+        .warp_us = us[STAGE_WARP],
+        .time_us = time_us,
+        .late = p->report.times.late,
+    };
+    for (int32_t step = 0; step < p->degrade.steps; step++)
+        frame.cost[step] = ladder_cost(p->ladder.method[step], &work);
+    const int32_t before = p->degrade.step;
+    if (degrade_next(&p->degrade, &frame) != before)
+        warp_use_method(&p->warp, *p->ladder.method[p->degrade.step]);
 }
 
 static void drive(projector_t *p, hal_gpio_line_t line, bool high)
@@ -140,11 +177,14 @@ void projector_step(projector_t *p)
     take_newest_picture(p, now_us);                         /* camera -> newest picture, or the last good one */
     p->report.state = state_now(p, now_us);
     const int64_t posed_us = end_stage(p, STAGE_POSE, now_us);
-    const bool healthy = show(p, posed_us); /* pose and picture -> homography, grid, prefilter, resample -> display */
+    const int64_t deadline_us = hal_display_next_vblank_us(p->board.display);
+    /* pose and picture -> homography, grid, prefilter, resample -> display */
+    const bool healthy = show(p, posed_us, deadline_us);
     stage_times_add(&p->stage_times, &p->report.times);
+    choose_method(p, deadline_us - now_us); /* what this one took -> the next picture's method */
     drive(p, HAL_GPIO_STROBE, false);
     drive(p, HAL_GPIO_LED, led_level(p->report.state, now_us));
-    telemetry_send(p, now_us); /* heartbeat, status, stages -> bus */
+    telemetry_send(p, now_us); /* heartbeat, status, stages, quality -> bus */
     if (healthy && hal_watchdog_feed(p->board.watchdog) != HAL_OK)
         p->faults.watchdog++;
 }

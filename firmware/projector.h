@@ -7,6 +7,8 @@
 #include <stdint.h>
 
 #include "firmware/can_protocol.h"
+#include "firmware/degrade.h"
+#include "firmware/ladder.h"
 #include "firmware/pose_from_can.h"
 #include "firmware/room.h"
 #include "firmware/stage_times.h"
@@ -43,7 +45,7 @@ typedef struct {
     stage_step_t times; /**< its stages, and the wait before it */
 } projector_report_t;
 
-/** About 158 MB, one static instance on a board; the simulator makes one for each of its boards before it starts. */
+/** About 163 MB, one static instance on a board; the simulator makes one for each of its boards before it starts. */
 struct projector {
     hal_board_t board;
     int32_t node;
@@ -56,6 +58,8 @@ struct projector {
     bool has_picture;
     int64_t picture_us; /**< when it was taken; at first the start of the loop */
     warp_t warp;
+    ladder_t ladder;   /**< the board's method, and what stands in for it */
+    degrade_t degrade; /**< which step of it is in use */
 
     projector_report_t report;
     stage_times_t stage_times; /**< since the last report of them */
@@ -77,10 +81,14 @@ struct projector {
 void projector_init(projector_t *projector, const room_t *room, const room_board_t *board, const hal_board_t *devices,
                     const warp_kernels_t *kernels);
 
+/** Never take a cheaper method, however late the pictures: where time passes that is not the board's, in a simulation.
+ */
+void projector_keep_method(projector_t *projector);
+
 /**
  * Everything that is done once per refresh: bus, camera, warp, display, telemetry, watchdog. Call it after each
  * vertical blank. Never blocks, never allocates; ends with a picture presented whatever has failed, unless it is the
- * display itself.
+ * display itself. When pictures are late or about to be, the next ones are made with a cheaper method (degrade.h).
  *
  * States: waiting for the first pose (safe picture); running; holding the last pose after PROJECTOR_HOLD_AFTER_US
  * without a new one; safe picture after PROJECTOR_SAFE_AFTER_US; fault (safe picture) while the camera has been silent

@@ -11,6 +11,7 @@ void telemetry_init(telemetry_t *telemetry, int64_t now_us)
         .start_us = now_us,
         .heartbeat_due_us = now_us,
         .status_due_us = now_us,
+        .quality_due_us = now_us,
         .stage_due_us = now_us + STAGES * CAN_STAGE_PERIOD_MS * 1000,
     };
 }
@@ -106,6 +107,24 @@ static void send_stage(projector_t *p)
     send(p, can_stage_encode(&frame, &stage), &frame);
 }
 
+static void send_quality(projector_t *p)
+{
+    telemetry_t *t = &p->telemetry;
+    const can_quality_t quality = {
+        .node = (uint8_t)p->node,
+        .counter = t->quality_counter,
+        .step = (uint8_t)p->degrade.step,
+        .filter = p->warp.method.filter,
+        .resampler = p->warp.method.resampler,
+        .changes = p->degrade.changes,
+        .wanted_us = (uint32_t)(p->degrade.wanted_us < UINT32_MAX ? p->degrade.wanted_us : UINT32_MAX),
+        .hold_s = (uint32_t)(p->degrade.hold_us / 1000000),
+    };
+    t->quality_counter = (uint8_t)((t->quality_counter + 1) % CAN_E2E_P01_COUNTERS);
+    hal_can_frame_t frame;
+    send(p, can_quality_encode(&frame, &quality), &frame);
+}
+
 void telemetry_send(projector_t *projector, int64_t now_us)
 {
     telemetry_t *t = &projector->telemetry;
@@ -118,6 +137,10 @@ void telemetry_send(projector_t *projector, int64_t now_us)
         if (t->stage_due_us <= now_us)
             t->stage_due_us = now_us + CAN_STAGE_PERIOD_MS * 1000;
         send_stage(projector);
+    }
+    if (now_us >= t->quality_due_us) {
+        t->quality_due_us = now_us + CAN_QUALITY_PERIOD_MS * 1000;
+        send_quality(projector);
     }
     if (now_us >= t->heartbeat_due_us) {
         t->heartbeat_due_us = now_us + CAN_HEARTBEAT_PERIOD_MS * 1000;

@@ -31,33 +31,6 @@ typedef struct {
     int32_t x_q18[PATCH_MAX_HEIGHT * PATCH_MAX_WIDTH], y_q18[PATCH_MAX_HEIGHT * PATCH_MAX_WIDTH];
 } tile_t;
 
-void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t border[3])
-{
-    warp->method = method;
-    warp->step_all = step_all;
-    for (int channel = 0; channel < 3; channel++)
-        warp->border[channel] = border[2 - channel];
-    warp->border[3] = 0;
-    warp->resampler = method.resampler;
-    const bool is_auto = method.resampler == WARP_AUTO;
-    const warp_resampler_t of_coefficients = is_auto ? WARP_MEAN_SPLINE : method.resampler;
-    const warp_resampler_t of_texels = is_auto ? WARP_MEAN_CUBIC : method.resampler;
-    if (!warp_splines(of_texels))
-        window_weights_init(&warp->texel_weights, of_texels, false);
-    if (warp_splines(of_coefficients) || method.filter != WARP_FILTER_NONE)
-        window_weights_init(&warp->coefficient_weights, of_coefficients, true);
-    if (method.resampler == WARP_LS)
-        ls_init(&warp->ls);
-    else
-        prefilter_init(&warp->prefilter);
-}
-
-void warp_set_ls_weights(warp_t *warp, const ls_weights_t *weights)
-{
-    if (warp->method.resampler == WARP_LS)
-        ls_set_weights(&warp->ls, weights);
-}
-
 static void fill_border(const warp_t *warp, const image_t *panel, int32_t j, int32_t begin, int32_t end)
 {
     const int32_t channels = (int32_t)panel->format;
@@ -76,7 +49,8 @@ static void prepare_picture(frame_t *frame, const image_t *picture, int32_t k_q1
         return;
     }
     frame->picture = *picture;
-    frame->filtered = prefilter_begin(&warp->prefilter, warp->method.filter, k_q16, warp_splines(warp->resampler));
+    frame->filtered =
+        warp->filters && prefilter_begin(&warp->prefilter, warp->method.filter, k_q16, warp_splines(warp->resampler));
     if (frame->filtered && warp->resampler == WARP_NEAREST)
         frame->picture = prefilter_pixels(&warp->prefilter, frame->kernels, picture);
     levels_begin(&warp->levels);
@@ -97,7 +71,8 @@ static void choose_blocks(frame_t *frame, int32_t j)
 static window_t window_of(const frame_t *frame, const warp_block_t *block)
 {
     warp_t *warp = frame->warp;
-    const window_weights_t *weights = frame->filtered ? &warp->coefficient_weights : &warp->texel_weights;
+    const window_weights_t *weights =
+        &warp->table[frame->filtered ? warp->coefficient_table : warp->texel_table].weights;
     const int level_x = block->x.level, level_y = block->y.level;
     window_t window = {
         .x = window_axis(weights, block->x.side),

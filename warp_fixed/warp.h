@@ -22,13 +22,26 @@ typedef struct {
     window_side_t x, y;
 } warp_block_t;
 
-/** Everything a board needs between and within frames; about 158 MB, most of it never touched by small pictures. */
+enum { WARP_TABLES = 4 };
+
+/** The weights of one resampler. */
 typedef struct {
-    warp_method_t method;
+    warp_resampler_t resampler;
+    bool of_coefficients;
+    window_weights_t weights;
+} warp_table_t;
+
+/** Everything a board needs between and within frames; about 163 MB, most of it never touched by small pictures. */
+typedef struct {
+    warp_method_t method;       /**< of the next frames */
+    bool filters;               /**< that method filters or makes splines, at some steps at least */
+    bool fits;                  /**< ready for WARP_LS, else for methods that filter */
     bool step_all;              /**< take k over the whole wall, not only over what lands in the picture */
     uint8_t border[4];          /**< B, G, R, X of unlit pixels; border[0] alone for gray */
     warp_resampler_t resampler; /**< of the present frame: the method's, unless that is WARP_AUTO */
-    window_weights_t texel_weights, coefficient_weights; /**< those that the method needs */
+    int32_t tables;
+    warp_table_t table[WARP_TABLES];        /**< of the methods that it is ready for: the first `tables` */
+    int32_t texel_table, coefficient_table; /**< of the method in use, where it has them */
     grid_t grid;
     footprint_blocks_t blocks;
     warp_block_t block[IMAGE_MAX_WIDTH];
@@ -36,7 +49,7 @@ typedef struct {
     union {
         prefilter_t prefilter;
         ls_t ls;
-    }; /**< the one that the method needs */
+    }; /**< ls if it fits */
 } warp_t;
 
 /** What a frame turned out to be, for telemetry and evaluation. */
@@ -54,6 +67,19 @@ typedef struct {
  * @param      border  Colour of unlit pixels: R, G, B.
  */
 void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t border[3]);
+
+/**
+ * Be ready for another method too, without more of the large buffers. Takes some milliseconds; call it before the loop.
+ *
+ * @return false, and nothing is changed, when there is no room for its weights: WARP_TABLES in all, one for a method,
+ *         two for auto and for a filter with linear or cubic, none for nearest and ls; shared by methods that resample
+ *         alike. Also when it is ls and the first one was not, or filters or makes splines and the first one was
+ *         ls: they use the same memory.
+ */
+bool warp_add_method(warp_t *warp, warp_method_t method);
+
+/** Make the next frames with a method that it is ready for, by warp_init() or warp_add_method(). Takes no time. */
+void warp_use_method(warp_t *warp, warp_method_t method);
 
 /**
  * Give method ls other weights than its uniform ones; other methods have none, and this does nothing.

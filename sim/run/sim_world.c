@@ -71,6 +71,8 @@ static bool open_node(sim_world_t *world, int32_t index, char error[FILE_ERROR_L
         return file_error(error, board.name, "out of memory: a projector takes %zu MB", sizeof(projector_t) >> 20);
     const warp_kernels_t *kernels = world->config.kernels != NULL ? world->config.kernels : warp_kernels_best();
     projector_init(node->projector, room, &board, &node->devices, kernels);
+    if (world->config.real) /* the boards share this machine */
+        projector_keep_method(node->projector);
     return true;
 }
 

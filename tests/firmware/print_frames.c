@@ -102,6 +102,29 @@ static void print_stages(void)
     }
 }
 
+/* One for each method, so that no two can be confused. */
+static void print_qualities(void)
+{
+    for (int i = 0; i < WARP_METHODS; i++) {
+        hal_can_frame_t frame;
+        const can_quality_t quality = {.node = 1,
+                                       .counter = (uint8_t)(i % 15),
+                                       .step = (uint8_t)(i % DEGRADE_MAX_STEPS),
+                                       .filter = warp_methods[i].filter,
+                                       .resampler = warp_methods[i].resampler,
+                                       .changes = 51234,
+                                       .wanted_us = 23456,
+                                       .hold_s = 512};
+        check(can_quality_encode(&frame, &quality));
+        print_frame("Quality", &frame, CAN_QUALITY_PERIOD_MS);
+        printf("signal QualityCounter %d\nsignal QualityStep %d\nsignal QualityMethod %d\n"
+               "signal QualityChanges 51234\nsignal QualityWanted 23456\nsignal QualityHold 512\n"
+               "named QualityMethod %s\n",
+               i % 15, i % DEGRADE_MAX_STEPS, 16 * (int)warp_methods[i].filter + (int)warp_methods[i].resampler,
+               warp_methods[i].name);
+    }
+}
+
 /* One heartbeat for each fault flag, so that no two flags can be confused. */
 static void print_heartbeats(void)
 {
@@ -139,6 +162,7 @@ int main(void)
     print_set();
     print_status();
     print_stages();
+    print_qualities();
     print_heartbeats();
     return 0;
 }

@@ -16,8 +16,10 @@ static const can_heartbeat_t HEARTBEAT = {
     .node = 63, .counter = 14, .state = CAN_BOARD_RUNNING, .frame_number = 0x1234};
 static const can_status_t STATUS = {.node = 1, .counter = 3, .step_q8 = 700, .warp_time_us = 12300};
 static const can_stage_t STAGE_SENT = {.node = 1, .counter = 3, .stage = STAGE_WARP, .mean_us = 12300, .shown = 60};
+static const can_quality_t QUALITY_SENT = {
+    .node = 1, .counter = 3, .step = 2, .resampler = WARP_LINEAR, .changes = 9, .hold_s = 8};
 
-typedef enum { SET_A, SET_B, SET_C, FD, HEART, STAT, STAGE, MESSAGES } message_t;
+typedef enum { SET_A, SET_B, SET_C, FD, HEART, STAT, STAGE, QUALITY, MESSAGES } message_t;
 
 static void encode_one(hal_can_frame_t *frame, message_t message, const can_pose_t *pose)
 {
@@ -39,8 +41,11 @@ static void encode_one(hal_can_frame_t *frame, message_t message, const can_pose
         assert_true(can_status_encode(frame, &STATUS));
         break;
     case STAGE:
-    case MESSAGES:
         assert_true(can_stage_encode(frame, &STAGE_SENT));
+        break;
+    case QUALITY:
+    case MESSAGES:
+        assert_true(can_quality_encode(frame, &QUALITY_SENT));
         break;
     }
 }
@@ -54,9 +59,13 @@ static can_check_t decode_any(const hal_can_frame_t *frame, uint8_t viewer)
     can_heartbeat_t heartbeat;
     can_status_t status;
     can_stage_t stage;
+    can_quality_t quality;
     const can_check_t check[] = {can_pose_part_check(frame, viewer, &part, &counter),
-                                 can_pose_fd_decode(&pose, frame, viewer), can_heartbeat_decode(&heartbeat, frame),
-                                 can_status_decode(&status, frame), can_stage_decode(&stage, frame)};
+                                 can_pose_fd_decode(&pose, frame, viewer),
+                                 can_heartbeat_decode(&heartbeat, frame),
+                                 can_status_decode(&status, frame),
+                                 can_stage_decode(&stage, frame),
+                                 can_quality_decode(&quality, frame)};
     for (size_t i = 0; i < sizeof check / sizeof check[0]; i++)
         if (check[i] != CAN_CHECK_OTHER)
             return check[i];
@@ -158,6 +167,16 @@ static void test_reserved_values_under_a_right_crc_are_refused(void **state)
     sign_p01(&frame);
     assert_int_equal(can_stage_decode(&stage, &frame), CAN_CHECK_VALUE);
     assert_int_equal(stage.node, 77);
+
+    static const uint8_t reserved[3][2] = {{0x53, 0x01}, {0x23, 0x09}, {0x23, 0x40}}; /* step, resampler, filter */
+    can_quality_t quality = {.node = 77};
+    assert_true(can_quality_encode(&frame, &QUALITY_SENT));
+    for (int i = 0; i < 3; i++) {
+        memcpy(frame.data + 1, reserved[i], 2);
+        sign_p01(&frame);
+        assert_int_equal(can_quality_decode(&quality, &frame), CAN_CHECK_VALUE);
+        assert_int_equal(quality.node, 77);
+    }
 }
 
 static void test_parts_of_different_sets_and_wrong_order_are_refused(void **state)

@@ -259,6 +259,41 @@ static void test_stages_come_back_saturated(void **state)
         assert_false(can_stage_encode(&frame, &bad[i]));
 }
 
+static void test_quality_comes_back_saturated(void **state)
+{
+    (void)state;
+    const can_quality_t quality = {.node = 2,
+                                   .counter = 1,
+                                   .step = 4,
+                                   .filter = WARP_FILTER_BUTTER,
+                                   .resampler = WARP_AUTO,
+                                   .changes = 65537,
+                                   .wanted_us = 65536,
+                                   .hold_s = 2047};
+    hal_can_frame_t frame;
+    can_quality_t got;
+    assert_true(can_quality_encode(&frame, &quality));
+    assert_int_equal(frame.id, 0x482);
+    assert_int_equal(can_quality_decode(&got, &frame), CAN_CHECK_OK);
+    assert_int_equal(got.node, 2);
+    assert_int_equal(got.counter, 1);
+    assert_int_equal(got.step, 4);
+    assert_int_equal(got.filter, WARP_FILTER_BUTTER);
+    assert_int_equal(got.resampler, WARP_AUTO);
+    assert_int_equal(got.changes, 1);
+    assert_int_equal(got.wanted_us, 65535);
+    assert_int_equal(got.hold_s, 1020);
+
+    can_quality_t bad[5] = {quality, quality, quality, quality, quality};
+    bad[0].node = 64;
+    bad[1].counter = 15;
+    bad[2].step = 5;
+    bad[3].filter = (warp_filter_t)4;
+    bad[4].resampler = (warp_resampler_t)9;
+    for (int i = 0; i < 5; i++)
+        assert_false(can_quality_encode(&frame, &bad[i]));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -271,6 +306,7 @@ int main(void)
         cmocka_unit_test(test_heartbeat_comes_back),
         cmocka_unit_test(test_status_comes_back_saturated),
         cmocka_unit_test(test_stages_come_back_saturated),
+        cmocka_unit_test(test_quality_comes_back_saturated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

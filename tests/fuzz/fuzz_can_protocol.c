@@ -89,6 +89,21 @@ static void check_stage(const hal_can_frame_t *frame)
                "a stage stays the same");
 }
 
+static void check_quality(const hal_can_frame_t *frame)
+{
+    can_quality_t quality, again;
+    hal_can_frame_t encoded;
+    if (can_quality_decode(&quality, frame) != CAN_CHECK_OK)
+        return;
+    fuzz_check(can_quality_encode(&encoded, &quality), "a decoded quality can be encoded");
+    fuzz_check(can_quality_decode(&again, &encoded) == CAN_CHECK_OK, "an encoded quality can be decoded");
+    fuzz_check(quality.node == again.node && quality.counter == again.counter && quality.step == again.step &&
+                   quality.filter == again.filter && quality.resampler == again.resampler &&
+                   quality.changes == again.changes && quality.wanted_us == again.wanted_us &&
+                   quality.hold_s == again.hold_s,
+               "a quality stays the same");
+}
+
 /* A pose with any numbers in it: the encoders refuse it, or what they write decodes. */
 static void check_encoders(input_t *input)
 {
@@ -123,6 +138,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             check_heartbeat(&frame[i]);
             check_status(&frame[i]);
             check_stage(&frame[i]);
+            check_quality(&frame[i]);
         }
         check_pose_set(frame, viewer);
     }

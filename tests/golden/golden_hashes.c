@@ -99,9 +99,10 @@ static void print_weights(void)
 {
     enum { COUNT = PHASES * 256 };
     static int16_t weight[COUNT];
-    window_weights_init(&warp.texel_weights, WARP_AREA, false);
+    static window_weights_t weights;
+    window_weights_init(&weights, WARP_AREA, false);
     for (int32_t side = 0, at = 0; at < COUNT; side++) {
-        const window_axis_t axis = window_axis(&warp.texel_weights, (uint16_t)side);
+        const window_axis_t axis = window_axis(&weights, (uint16_t)side);
         for (int32_t phase = 0; phase < PHASES && at < COUNT; phase++)
             for (int32_t t = 0; t < axis.taps && at < COUNT; t++)
                 weight[at++] = axis.second[((phase + axis.lead) & (PHASES - 1)) * axis.row + t];

@@ -35,6 +35,7 @@ static void listen(void *context, int sender, const hal_can_frame_t *frame)
         can_heartbeat_t heartbeat;
         can_status_t status;
         can_stage_t stage;
+        can_quality_t quality;
         if (can_heartbeat_decode(&heartbeat, frame) == CAN_CHECK_OK && heartbeat.node == bench->room.board[i].node) {
             voice->heartbeats++;
             voice->flags_ever |= heartbeat.fault_flags;
@@ -48,6 +49,10 @@ static void listen(void *context, int sender, const hal_can_frame_t *frame)
         if (can_stage_decode(&stage, frame) == CAN_CHECK_OK && stage.node == bench->room.board[i].node) {
             voice->stages++;
             voice->stage[stage.stage] = stage;
+        }
+        if (can_quality_decode(&quality, frame) == CAN_CHECK_OK && quality.node == bench->room.board[i].node) {
+            voice->qualities++;
+            voice->quality = quality;
         }
     }
 }

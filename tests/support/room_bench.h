@@ -13,12 +13,13 @@ enum { ROOM_BENCH_HZ = 60, ROOM_BENCH_BOARDS = 2 };
 
 /** What a board has said of itself on the bus. */
 typedef struct {
-    int heartbeats, statuses, stages;
+    int heartbeats, statuses, stages, qualities;
     uint32_t flags_ever;       /**< fault flags of all heartbeats */
     uint32_t states_ever;      /**< 1 << state of all heartbeats */
     can_heartbeat_t heartbeat; /**< the newest */
     can_status_t status;
     can_stage_t stage[STAGES];
+    can_quality_t quality;
 } room_bench_voice_t;
 
 typedef struct {

@@ -216,8 +216,7 @@ static void auto_shows_what_it_names(void **state)
     rng_t rng = {3};
     for (int32_t k = 0; k < 60 * 44; k++)
         image_row(&picture.image, k / 60)[k % 60] = (uint8_t)rng_next(&rng);
-    memset(&warp.texel_weights, 0, sizeof warp.texel_weights); /* of other methods */
-    memset(&warp.coefficient_weights, 0, sizeof warp.coefficient_weights);
+    memset(warp.table, 0, sizeof warp.table); /* of other methods */
     warp_init(&warp, *warp_method_from_name("auto"), false, border);
     for (size_t n = 0; n < sizeof zooms / sizeof *zooms; n++) {
         const int64_t scale = (int64_t)(zooms[n] * 1099511627776.0), one = (int64_t)1 << 40;

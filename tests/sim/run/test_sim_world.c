@@ -116,6 +116,23 @@ static void test_a_method_for_all_boards_replaces_the_rooms(void **state)
     room_bench_close(&bench);
 }
 
+/* In real time the boards wait for each other: what a step takes says nothing of a board. */
+static void test_only_boards_in_virtual_time_may_take_cheaper_methods(void **state)
+{
+    (void)state;
+    char error[FILE_ERROR_LENGTH] = "";
+    room_bench_t bench;
+    room_bench_open(&bench, true);
+    assert_int_equal(sim_world_projector(bench.world, 0)->degrade.steps, 4);
+    const sim_world_config_t config = {
+        .room = &bench.room, .video = bench.video, .real = true, .refresh = {0, ROOM_BENCH_HZ, 1}};
+    sim_world_t *world = sim_world_create(&config, error);
+    assert_string_equal(error, "");
+    assert_int_equal(sim_world_projector(world, 0)->degrade.steps, 1);
+    sim_world_destroy(world);
+    room_bench_close(&bench);
+}
+
 static void check_rate(const int64_t *time_us, size_t count, int frames, int seconds, int64_t lasts)
 {
     pose_list_entry_t entry[8];
@@ -192,6 +209,7 @@ int main(void)
         cmocka_unit_test(test_step_n_draws_pose_n_and_two_runs_are_alike),
         cmocka_unit_test(test_the_wall_shows_what_the_step_drew),
         cmocka_unit_test(test_a_method_for_all_boards_replaces_the_rooms),
+        cmocka_unit_test(test_only_boards_in_virtual_time_may_take_cheaper_methods),
         cmocka_unit_test(test_the_rate_follows_the_list),
         cmocka_unit_test(test_a_written_pose_is_read_back),
         cmocka_unit_test(test_sums_over_a_run),

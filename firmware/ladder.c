@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cheaper methods that stand in for a method when a board is too slow for it, and what each costs.
+#include "firmware/ladder.h"
+
+/*
+ * Instructions of XRGB frames with NEON loops, in tenths, of tests/bench/baseline.csv (make bench-arm). Per lit pixel:
+ * the mean of its poses strong (49.3 % of the panel lit) and mild (87.8 %), of the case and the grid, less the dark
+ * pixels. Of the rest only the filter's taps are there (cases gauss and kaiser, 7 taps); dark pixels, coefficients and
+ * fit were counted in the same way, with frames of which nothing is lit, and with nothing left out.
+ */
+enum {
+    DARK_PIXEL = 183,
+    SPLINE_PICTURE_PIXEL = 1280, /* coefficients */
+    LS_PICTURE_PIXEL = 1000,     /* right sides and substitution; falls with k */
+    TAP_PICTURE_PIXEL = 84,
+    TENTHS_PER_UNIT = 10000
+};
+
+static const uint16_t lit_pixel[] = {
+    [WARP_NEAREST] = 322, [WARP_LINEAR] = 758, [WARP_CUBIC] = 1037,      [WARP_SPLINE] = 2142,
+    [WARP_LS] = 5950,     [WARP_AREA] = 1053,  [WARP_MEAN_CUBIC] = 1593, [WARP_MEAN_SPLINE] = 3142,
+};
+
+/* Half lengths for k = 1, Q8 (fir_design.h): 4 sigma, sigma = sqrt(ln 2) / pi; 6; butter's is cut at about 8. */
+static const uint16_t half_length_q8[] = {
+    [WARP_FILTER_NONE] = 0, [WARP_FILTER_GAUSS] = 271, [WARP_FILTER_KAISER] = 1536, [WARP_FILTER_BUTTER] = 2048};
+
+/* @return WARP_AUTO for nothing: no step down leads there. */
+static warp_resampler_t below(const warp_method_t *method)
+{
+    if (method->filter != WARP_FILTER_NONE)
+        return WARP_AREA;
+    switch (method->resampler) {
+    case WARP_AUTO:
+    case WARP_LS:
+    case WARP_MEAN_SPLINE:
+        return WARP_MEAN_CUBIC;
+    case WARP_MEAN_CUBIC:
+        return WARP_AREA;
+    case WARP_SPLINE:
+        return WARP_CUBIC;
+    case WARP_AREA:
+    case WARP_CUBIC:
+        return WARP_LINEAR;
+    case WARP_LINEAR:
+        return WARP_NEAREST;
+    case WARP_NEAREST:
+        break;
+    }
+    return WARP_AUTO;
+}
+
+static const warp_method_t *without_filter(warp_resampler_t resampler)
+{
+    int i = 0;
+    while (warp_methods[i].filter != WARP_FILTER_NONE || warp_methods[i].resampler != resampler)
+        i++; /* every resampler is there without a filter */
+    return &warp_methods[i];
+}
+
+ladder_t ladder_of(const warp_method_t *method)
+{
+    ladder_t ladder = {.steps = 1, .method = {method}};
+    warp_resampler_t next = below(method);
+    while (next != WARP_AUTO && ladder.steps < LADDER_STEPS) {
+        const warp_method_t *step = without_filter(next);
+        ladder.method[ladder.steps++] = step;
+        next = below(step);
+    }
+    return ladder;
+}
+
+/* In tenths of an instruction. */
+static uint64_t per_picture_pixel(const warp_method_t *method, warp_resampler_t resampler, uint32_t k_q16)
+{
+    uint64_t cost = warp_splines(resampler) ? SPLINE_PICTURE_PIXEL : resampler == WARP_LS ? LS_PICTURE_PIXEL : 0;
+    const uint32_t k_most_q16 = 64u << 16;
+    if (method->filter != WARP_FILTER_NONE && k_q16 > 1u << 16) {
+        const uint64_t k = k_q16 < k_most_q16 ? k_q16 : k_most_q16;
+        const uint64_t half_length = (half_length_q8[method->filter] * k + (1u << 24) - 1) >> 24;
+        cost += TAP_PICTURE_PIXEL * (2 * half_length + 1);
+    }
+    return cost;
+}
+
+uint32_t ladder_cost(const warp_method_t *method, const ladder_frame_t *frame)
+{
+    const bool is_auto = method->resampler == WARP_AUTO;
+    /* As if it had chosen the spline before: rather too much than too little. */
+    const warp_resampler_t resampler =
+        is_auto ? warp_resampler_for_step(WARP_MEAN_SPLINE, frame->k_q16) : method->resampler;
+    const uint64_t lit = (uint64_t)frame->lit_pixels, dark = (uint64_t)frame->panel_pixels - lit;
+    uint64_t tenths = dark * DARK_PIXEL + lit * lit_pixel[resampler];
+    if (lit > 0)
+        tenths += (uint64_t)frame->picture_pixels * per_picture_pixel(method, resampler, (uint32_t)frame->k_q16);
+    return (uint32_t)(tenths / TENTHS_PER_UNIT) + 1; /* <= 2^23.1 * (5950 + 1280 + 84 * 1025) / 10^4 < 2^27 */
+}

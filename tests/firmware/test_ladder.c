@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests of the ladders of methods: which stand in for which, that each is cheaper, and that the costs are those
+// counted.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "firmware/ladder.h"
+#include "warp_fixed/warp.h"
+
+static const int32_t FULL_HD = 1920 * 1080;
+
+static void assert_ladder(const char *expected)
+{
+    char names[200] = "", first[32];
+    snprintf(first, sizeof first, "%.*s", (int)strcspn(expected, " "), expected);
+    const ladder_t ladder = ladder_of(warp_method_from_name(first));
+    for (int32_t step = 0; step < ladder.steps; step++) {
+        strcat(names, step > 0 ? " " : "");
+        strcat(names, ladder.method[step]->name);
+    }
+    assert_string_equal(names, expected);
+}
+
+static void test_what_stands_in_for_what(void **state)
+{
+    (void)state;
+    assert_ladder("mean+spline mean+cubic area none+linear none+nearest");
+    assert_ladder("auto mean+cubic area none+linear none+nearest");
+    assert_ladder("ls mean+cubic area none+linear none+nearest");
+    assert_ladder("mean+cubic area none+linear none+nearest");
+    assert_ladder("area none+linear none+nearest");
+    assert_ladder("kaiser+spline area none+linear none+nearest");
+    assert_ladder("gauss+nearest area none+linear none+nearest");
+    assert_ladder("none+spline none+cubic none+linear none+nearest");
+    assert_ladder("none+cubic none+linear none+nearest");
+    assert_ladder("none+linear none+nearest");
+    assert_ladder("none+nearest");
+}
+
+/* gauss+nearest alone is cheaper than what stands in for it, as long as k is small. */
+static void test_each_step_is_cheaper(void **state)
+{
+    (void)state;
+    for (int i = 0; i < WARP_METHODS; i++) {
+        const ladder_t ladder = ladder_of(&warp_methods[i]);
+        for (int32_t k_q16 = 65536; k_q16 < 4 << 16; k_q16 += 16384) {
+            const ladder_frame_t frame = {FULL_HD, FULL_HD, FULL_HD, k_q16};
+            const bool narrow = warp_methods[i].filter != WARP_FILTER_NONE && k_q16 < 3 << 16;
+            for (int32_t step = narrow ? 2 : 1; step < ladder.steps; step++) {
+                const uint32_t cost = ladder_cost(ladder.method[step], &frame);
+                const uint32_t above = ladder_cost(ladder.method[step - 1], &frame);
+                const bool same = warp_methods[i].resampler == WARP_AUTO && step == 1;
+                if (same ? cost > above : cost >= above)
+                    fail_msg("%s, k %d / 65536: step %d costs %u, the one above %u", warp_methods[i].name, k_q16, step,
+                             cost, above);
+            }
+        }
+    }
+}
+
+static void test_costs_fit_at_the_largest_sizes(void **state)
+{
+    (void)state;
+    const int32_t most = IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT;
+    for (int i = 0; i < WARP_METHODS; i++) {
+        assert_in_range(ladder_cost(&warp_methods[i], &(ladder_frame_t){most, most, most, INT32_MAX}), 1, 1U << 31);
+        assert_in_range(ladder_cost(&warp_methods[i], &(ladder_frame_t){1, 0, 1, 0}), 1, 1);
+    }
+}
+
+static void test_a_warp_is_ready_for_every_ladder(void **state)
+{
+    (void)state;
+    static warp_t warp;
+    static const uint8_t border[3] = {0, 0, 0};
+    for (int i = 0; i < WARP_METHODS; i++) {
+        const ladder_t ladder = ladder_of(&warp_methods[i]);
+        warp_init(&warp, warp_methods[i], false, border);
+        for (int32_t step = 1; step < ladder.steps; step++)
+            if (!warp_add_method(&warp, *ladder.method[step]))
+                fail_msg("%s: no room for %s", warp_methods[i].name, ladder.method[step]->name);
+    }
+}
+
+/* Instructions per panel pixel of a case in the baseline, XRGB. */
+static double counted(const char *name, const char *pose)
+{
+    char line[128], wanted[64];
+    double instructions = -1;
+    FILE *file = fopen("tests/bench/baseline.csv", "r");
+    assert_non_null(file);
+    snprintf(wanted, sizeof wanted, "%s,xrgb,%s,", name, pose);
+    while (fgets(line, sizeof line, file) != NULL)
+        if (strncmp(line, wanted, strlen(wanted)) == 0)
+            instructions = strtod(line + strlen(wanted), NULL);
+    fclose(file);
+    if (instructions < 0)
+        fail_msg("tests/bench/baseline.csv has no line %s", wanted);
+    return instructions;
+}
+
+/* Cost of a method relative to mean+cubic, as counted: case and grid, the mean of both poses. */
+static double counted_ratio(const char *name)
+{
+    static const char *const pose[2] = {"strong", "mild"};
+    double ratio = 0;
+    for (int i = 0; i < 2; i++) {
+        const double grid = counted("grid", pose[i]);
+        ratio += (counted(name, pose[i]) + grid) / (counted("mean+cubic", pose[i]) + grid) / 2;
+    }
+    return ratio;
+}
+
+static double model_ratio(const char *method)
+{
+    static const int32_t lit[2] = {49, 88};
+    double ratio = 0;
+    for (int i = 0; i < 2; i++) {
+        const ladder_frame_t frame = {FULL_HD, FULL_HD / 100 * lit[i], 0, 65536};
+        ratio += (double)ladder_cost(warp_method_from_name(method), &frame) /
+                 ladder_cost(warp_method_from_name("mean+cubic"), &frame) / 2;
+    }
+    return ratio;
+}
+
+static void test_costs_are_those_counted(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        {"nearest", "none+nearest"},   {"linear", "none+linear"}, {"cubic", "none+cubic"},
+        {"spline", "none+spline"},     {"area", "area"},          {"mean+cubic", "mean+cubic"},
+        {"mean+spline", "mean+spline"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const double baseline = counted_ratio(cases[i][0]), model = model_ratio(cases[i][1]);
+        if (model > 1.3 * baseline || baseline > 1.3 * model)
+            fail_msg("%s costs %.3f of mean+cubic in baseline.csv and %.3f in firmware/ladder.c: take the new counts",
+                     cases[i][0], baseline, model);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_what_stands_in_for_what),        cmocka_unit_test(test_each_step_is_cheaper),
+        cmocka_unit_test(test_costs_fit_at_the_largest_sizes), cmocka_unit_test(test_a_warp_is_ready_for_every_ladder),
+        cmocka_unit_test(test_costs_are_those_counted),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
