@@ -169,6 +169,12 @@ bench-arm: setup-bench ## Count the instructions and A72 cycles of each pixel as
 	$(Q)tests/bench/check_a72_cycles.sh $(BUILD) >&2
 	$(Q)tests/bench/bench_arm.sh $(BUILD)/count_plugin.so $(ARM)/bench_arm build/bench $(KERNELS) $(BASELINE)
 
+# FORM=csv for all figures, FORM=readme to put the table into README.md.
+FORM := table
+.PHONY: budget
+budget: ## Print which method holds 60 Hz on which board, with how many cores and what headroom
+	$(Q)board/budget.sh $(FORM)
+
 # --- fuzzing ---------------------------------------------------------------------------------------------------------
 
 FUZZ_C  := $(wildcard tests/fuzz/fuzz_*.c)
