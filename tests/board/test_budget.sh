@@ -53,6 +53,7 @@ sed -i 's/,1000,100,8294.4$/,2000,200,4147.2/' "$folder/boards.csv"
 same 'clock, cycles, bandwidth' "$(line mean+cubic)" one,mean+cubic,xrgb,yes,1,13,12.44,2.00
 
 table=$(awk -v form=table -f board/budget.awk "$folder/baseline.csv" "$folder/boards.csv")
+# shellcheck disable=SC2016 # the backquotes are Markdown's
 same 'the table' "$(echo "$table" | grep -e XRGB -e mean+cubic -e ls)" '| XRGB | one |
 | `mean+cubic` | 1, 13 % |
 | `ls` | no: 30 Hz |'
