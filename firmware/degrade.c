@@ -9,7 +9,9 @@ enum {
     MEAN_FRAMES = 8,
     WINDOW_FRAMES = 64,
     MISS = 64,
-    MISSES = 120
+    MISSES = 120,
+    AS_STATED_Q8 = 256,
+    DEAREST_Q8 = 1024
 };
 
 static const int64_t stable_us = INT64_C(600000000);
@@ -18,6 +20,8 @@ static const int64_t second_us = 1000000;
 void degrade_init(degrade_t *degrade, int32_t steps)
 {
     *degrade = (degrade_t){.steps = steps, .hold_us = DEGRADE_MIN_HOLD_S * second_us};
+    for (int32_t step = 0; step < steps; step++)
+        degrade->dearer_q8[step] = AS_STATED_Q8;
 }
 
 static int64_t median(const int64_t of[3])
@@ -64,12 +68,37 @@ static void change(degrade_t *d, int32_t step)
     d->candidate_us = 0;
 }
 
+/* A return has failed at once: its step costs more than was thought, a unit takes what it took before. */
+static void learn(degrade_t *d)
+{
+    const int64_t now_q16 = median(d->unit_q16);
+    if (now_q16 <= d->returned_q16 || d->returned_q16 <= 0)
+        return;
+    const int64_t dearer_q8 = d->dearer_q8[d->step] * now_q16 / d->returned_q16;
+    d->dearer_q8[d->step] = (int32_t)(dearer_q8 < DEAREST_Q8 ? dearer_q8 : DEAREST_Q8);
+    d->since_learned_us = 0;
+    d->unit_q16[0] = d->unit_q16[1] = d->unit_q16[2] = d->mean_q16 = d->returned_q16;
+}
+
+/* What was learned was of a load that may have gone. */
+static void forget(degrade_t *d, int64_t period_us)
+{
+    d->since_learned_us += period_us;
+    if (d->since_learned_us < stable_us)
+        return;
+    d->since_learned_us = 0;
+    for (int32_t step = 0; step < d->steps; step++)
+        d->dearer_q8[step] = (d->dearer_q8[step] + AS_STATED_Q8) / 2;
+}
+
 /* A return has ended; how long it has lasted decides how soon the next may come. */
 static void judge_return(degrade_t *d)
 {
     if (!d->returned)
         return;
     d->returned = false;
+    if (d->since_return_us < second_us)
+        learn(d);
     const int64_t most_us = DEGRADE_MAX_HOLD_S * second_us, least_us = DEGRADE_MIN_HOLD_S * second_us;
     if (d->since_return_us < stable_us)
         d->hold_us = 2 * d->hold_us < most_us ? 2 * d->hold_us : most_us;
@@ -79,6 +108,7 @@ static void judge_return(degrade_t *d)
 
 static void step_down(degrade_t *d, const degrade_frame_t *frame, int64_t period_us)
 {
+    judge_return(d);
     const int64_t last_q16 = median(d->unit_q16); /* the mean is too slow when a board has suddenly become so */
     const int64_t unit_q16 = last_q16 > d->mean_q16 ? last_q16 : d->mean_q16;
     int32_t below = d->step;
@@ -91,7 +121,6 @@ static void step_down(degrade_t *d, const degrade_frame_t *frame, int64_t period
     }
     if (below == d->step)
         return;
-    judge_return(d);
     change(d, below);
 }
 
@@ -111,15 +140,21 @@ static void step_up(degrade_t *d, const degrade_frame_t *frame, int64_t period_u
         return;
     d->returned = true;
     d->since_return_us = 0;
+    d->returned_q16 = d->mean_q16;
     change(d, d->candidate);
 }
 
-int32_t degrade_next(degrade_t *d, const degrade_frame_t *frame)
+int32_t degrade_next(degrade_t *d, const degrade_frame_t *stated)
 {
+    degrade_frame_t known = *stated;
+    const degrade_frame_t *frame = &known;
     const int64_t period_us = period(d, frame->time_us);
     d->frames++;
     if (d->frames <= DEGRADE_WARM_UP || period_us <= 0)
         return d->step;
+    forget(d, period_us);
+    for (int32_t step = 0; step < d->steps; step++)
+        known.cost[step] = (uint32_t)((uint64_t)stated->cost[step] * (uint64_t)d->dearer_q8[step] / AS_STATED_Q8);
     measure(d, frame);
     d->wanted_us = expected(frame, 0, d->mean_q16);
     d->since_return_us += period_us;

@@ -3,12 +3,13 @@
 //
 // A step is a method; step 0 is the one that is wanted, each further one costs less (ladder.h). What a frame would take
 // with another step is expected from its cost there, times what a unit of cost takes on this board: measured on every
-// frame, median of three, then a running mean over 8. Of the period P, the time that there is for a frame:
+// frame, median of three, then a running mean over 8. Costs may be wrong: when a return fails within a second, its step
+// is taken to cost as much more as it did then, and half of that after every 10 minutes. Of the period P, the time that
+// there is for a frame:
 //
 //   down  after 8 frames in a row whose expected time is above 90 % of P; or at once when two pictures of 8 were late,
-//   or
-//         three of 72, or more than one in 64 for long; to the best step that is expected to take at most 80 % of P, or
-//         to the last. A single late picture is no reason: what the system did in that moment no method can mend;
+//         or three of 72; to the best step that is expected to take at most 80 % of P, or to the last. A single late
+//         picture is no reason: what the system did in that moment no method can mend;
 //   up    when a better step has been expected to take at most 80 % of P in every frame for the hold-off time:
 //         to the worst of these in the second half of it.
 //
@@ -34,7 +35,7 @@ typedef struct {
     int64_t warp_us;                  /**< of that, what depends on the method */
     int64_t time_us;                  /**< there was: from the step's begin to the vertical blank */
     bool late;                        /**< the blank was missed */
-    uint32_t cost[DEGRADE_MAX_STEPS]; /**< of this frame with every step, 1 to 2^31, in any unit */
+    uint32_t cost[DEGRADE_MAX_STEPS]; /**< of this frame with every step, 1 to 2^28, in any unit */
 } degrade_frame_t;
 
 typedef struct {
@@ -51,7 +52,10 @@ typedef struct {
     int32_t misses;        /**< late pictures, each worth 64 and then less by one a frame */
     int32_t candidate;     /**< step to return to */
     int64_t candidate_us;  /**< for so long there has been one */
-    bool returned;         /**< the last change was a return */
+    int32_t dearer_q8[DEGRADE_MAX_STEPS]; /**< than stated is each step by that factor; 256 at first, up to 1024 */
+    int64_t since_learned_us;
+    int64_t returned_q16; /**< us per unit of cost at the last return */
+    bool returned;        /**< the last change was a return */
     int64_t since_return_us;
 } degrade_t;
 

@@ -133,10 +133,11 @@ static bool show(projector_t *p, int64_t begin_us, int64_t deadline_us)
 static void choose_method(projector_t *p, int64_t time_us)
 {
     const int64_t *us = p->report.times.us;
-    if (!p->report.corrected || !p->report.times.shown)
+    const int32_t panel_pixels = p->wall.panel_width * p->wall.panel_height;
+    if (!p->report.corrected || !p->report.times.shown ||
+        p->report.warp.lit_pixels < panel_pixels / PROJECTOR_JUDGED_LIT)
         return;
     const ladder_frame_t work = {
-        .panel_pixels = p->wall.panel_width * p->wall.panel_height,
         .lit_pixels = p->report.warp.lit_pixels,
         .picture_pixels = p->camera.width * p->camera.height,
         .k_q16 = p->warp.step_all ? p->report.warp.k_all_q16 : p->report.warp.k_in_q16,

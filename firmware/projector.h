@@ -21,6 +21,7 @@ typedef struct projector projector_t;
 enum {
     PROJECTOR_HOLD_AFTER_US = 100000,  /**< no pose for so long: holding the last one */
     PROJECTOR_SAFE_AFTER_US = 1000000, /**< and for so long: safe picture */
+    PROJECTOR_JUDGED_LIT = 8, /**< a picture that lights less than 1 / 8 of the panel says little of a method */
     PROJECTOR_CAMERA_LOST_US = 1000000 /**< no new picture from the camera for so long: fault, safe picture */
 };
 
@@ -45,7 +46,7 @@ typedef struct {
     stage_step_t times; /**< its stages, and the wait before it */
 } projector_report_t;
 
-/** About 163 MB, one static instance on a board; the simulator makes one for each of its boards before it starts. */
+/** About 162 MB, one static instance on a board; the simulator makes one for each of its boards before it starts. */
 struct projector {
     hal_board_t board;
     int32_t node;

@@ -109,7 +109,7 @@ static void send_pose(room_bench_t *bench)
     hal_can_frame_t frame[CAN_POSE_PARTS];
     const bool fd = bench->room.fd;
     const can_pose_t pose = {
-        .pose = room_bench_pose(bench->poses),
+        .pose = bench->pose != NULL ? *bench->pose : room_bench_pose(bench->poses),
         .capture_time_us = (uint64_t)bench->poses * 16667 % CAN_POSE_SET_WRAP_US,
         .quality = CAN_POSE_TRACKED,
         .counter = (uint8_t)(bench->poses % (fd ? CAN_E2E_P05_COUNTERS : CAN_E2E_P01_COUNTERS)),

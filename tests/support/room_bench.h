@@ -28,9 +28,10 @@ typedef struct {
     sim_world_t *world;
     hal_can_t *tracker;
     room_bench_voice_t voice[ROOM_BENCH_BOARDS];
-    int64_t step;  /**< the next one */
-    bool tracking; /**< a pose before each step */
-    int poses;     /**< sent so far; the next one's number */
+    int64_t step;       /**< the next one */
+    bool tracking;      /**< a pose before each step */
+    int poses;          /**< sent so far; the next one's number */
+    const pose_t *pose; /**< sent instead of room_bench_pose(), unless NULL */
 } room_bench_t;
 
 /** Two boards and a camera of 96 x 54 px with the test pattern; nobody has stepped yet. Fails the test on error. */
