@@ -119,9 +119,8 @@ static void step_down(degrade_t *d, const degrade_frame_t *frame, int64_t period
         if (100 * expected(frame, step, unit_q16) <= RETURN_PERCENT * period_us)
             break;
     }
-    if (below == d->step)
-        return;
-    change(d, below);
+    if (below != d->step)
+        change(d, below);
 }
 
 static void step_up(degrade_t *d, const degrade_frame_t *frame, int64_t period_us)
