@@ -153,7 +153,7 @@ $(BUILD)/count_plugin.so: $(call objects,tests/bench/count_plugin.c)
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -shared -o $@ $^
 $(BUILD)/obj/tests/bench/count_plugin.c.o: CFLAGS += -fPIC -fvisibility=hidden
-$(BUILD)/bench_arm: $(call objects,tests/bench/bench_arm.c tests/bench/markers.c) $(BUILD)/libwarp.a
+$(BUILD)/bench_arm: $(call objects,tests/bench/bench_arm.c tests/bench/markers.c tests/bench/workload.c) $(BUILD)/libwarp.a
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 

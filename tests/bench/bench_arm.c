@@ -3,46 +3,17 @@
 //
 // usage: bench_arm CASE FORMAT POSE KERNELS    prints over how many pixels the work is to be divided
 //
-// Picture and panel are 1920 x 1080; the poses are two homographies that others have been measured with. What is
-// between the markers:
+// Picture and poses are those of workload.h. What is between the markers:
 //   grid            grid_from_homography(), then grid_block() and the points of every lit pixel, stored;
-//   gauss, kaiser   prefilter_coefficients() of the picture with 7 taps, known before. Kaiser's filter is never as
-//   short as
-//                   that: it is given weights by hand, negative ones among them;
+//   gauss, kaiser   prefilter_coefficients() of the picture with 7 taps, known before;
 //   all others      warp_frame() of the method. bench_arm.sh leaves parts of it out, but not for frame:*.
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/support/rng.h"
 #include "tests/bench/markers.h"
+#include "tests/bench/workload.h"
 #include "warp_fixed/warp.h"
-
-enum { WIDTH = 1920, HEIGHT = 1080, SEVEN_TAPS_RADIUS = 3, SEVEN_TAPS_K_Q16 = 3 << 16 };
-
-typedef struct {
-    const char *name;
-    double rows[3][3]; /* from panel index to picture index */
-} bench_pose_t;
-
-static const bench_pose_t poses[] = {
-    {"strong",
-     {{3.7348841250231346, 0.6585608410613063, -1563.3322761774},
-      {0.045488238090270985, 2.3351236094295453, -73.443630957592021},
-      {0.00082195784183178625, 0.00014493334451484484, 1}}},
-    {"mild",
-     {{1.184834322588556, -0.0093641519771932857, -53.656841584462413},
-      {-0.0055509479337247343, 1.0899434500322718, 0.2924260259089646},
-      {0.000068934240459625438, -0.000040289870583368484, 1}}},
-};
-
-typedef struct {
-    const char *name;
-    image_format_t format;
-} bench_format_t;
-
-static const bench_format_t formats[] = {{"gray", IMAGE_GRAY8}, {"xrgb", IMAGE_XRGB8888}};
 
 typedef struct {
     const char *name;
@@ -67,8 +38,8 @@ static const bench_case_t cases[] = {
 };
 
 static warp_t warp;
-static uint8_t picture_bytes[WIDTH * HEIGHT * 4], panel_bytes[WIDTH * HEIGHT * 4];
-static int32_t points_x_q18[WIDTH * HEIGHT], points_y_q18[WIDTH * HEIGHT];
+static uint8_t picture_bytes[BENCH_PIXELS * 4], panel_bytes[BENCH_PIXELS * 4];
+static int32_t points_x_q18[BENCH_PIXELS], points_y_q18[BENCH_PIXELS];
 
 /* The entry of that name in a table whose entries begin with a name, or the end of the program. */
 static const void *find(const char *what, const char *name, const void *table, size_t count, size_t size)
@@ -84,41 +55,16 @@ static const void *find(const char *what, const char *name, const void *table, s
     exit(2);
 }
 
-static homography_t homography_of_pose(const bench_pose_t *pose)
-{
-    const int32_t size[2] = {WIDTH, HEIGHT};
-    int64_t rows_q40[3][3];
-    for (int r = 0; r < 3; r++)
-        for (int k = 0; k < 3; k++)
-            rows_q40[r][k] = llround(ldexp(pose->rows[r][k], 40));
-    homography_t homography;
-    homography_from_indices(&homography, (const int64_t(*)[3])rows_q40, size, size);
-    return homography;
-}
-
-/* Squares, ramps and noise; the same always. */
-static void paint(uint8_t *bytes, int32_t channels)
-{
-    rng_t rng = {1};
-    for (int32_t y = 0; y < HEIGHT; y++) {
-        for (int32_t x = 0; x < WIDTH * channels; x++) {
-            const int32_t square = (x / 64 + y / 16) % 3;
-            const int64_t noise = rng_int(&rng, 0, 255);
-            *bytes++ = (uint8_t)(square == 0 ? noise : square == 1 ? (x + 3 * y) % 256 : 255 * ((x + y) & 1));
-        }
-    }
-}
-
 static void run_grid(const warp_kernels_t *kernels, const homography_t *homography)
 {
     grid_t *grid = &warp.grid;
     bench_begin();
     grid_from_homography(grid, homography);
-    for (int32_t j = 0; j < HEIGHT; j++) {
+    for (int32_t j = 0; j < BENCH_HEIGHT; j++) {
         for (int32_t begin = grid->row[j].begin; begin < grid->row[j].end;) {
             const int32_t end = grid_block_end(grid, j, begin);
             const grid_quadratic_t block = grid_block(grid, j, begin, end);
-            kernels->grid_points(&points_x_q18[j * WIDTH + begin], &points_y_q18[j * WIDTH + begin], &block,
+            kernels->grid_points(&points_x_q18[j * BENCH_WIDTH + begin], &points_y_q18[j * BENCH_WIDTH + begin], &block,
                                  end - begin);
             begin = end;
         }
@@ -126,22 +72,12 @@ static void run_grid(const warp_kernels_t *kernels, const homography_t *homograp
     bench_end();
 }
 
-/* The filter is given as the one of the last k, so that none is designed. */
 static bool run_prefilter(const warp_kernels_t *kernels, const image_t *picture, warp_filter_t filter)
 {
-    prefilter_t *prefilter = &warp.prefilter;
-    prefilter->kind = (prefilter_kind_t){filter, SEVEN_TAPS_K_Q16, false};
-    fir_design(&prefilter->fir, WARP_FILTER_GAUSS, SEVEN_TAPS_K_Q16, false);
-    if (prefilter->fir.radius != SEVEN_TAPS_RADIUS)
-        return false;
-    if (filter == WARP_FILTER_KAISER) {
-        const int16_t weight[] = {6398, 4608, 768, -383};
-        memcpy(prefilter->fir.weight, weight, sizeof weight);
-    }
-    if (!prefilter_begin(prefilter, filter, SEVEN_TAPS_K_Q16, false))
+    if (!bench_seven_taps(&warp.prefilter, filter))
         return false;
     bench_begin();
-    const coefficients_t filtered = prefilter_coefficients(prefilter, kernels, picture, 0, 0);
+    const coefficients_t filtered = prefilter_coefficients(&warp.prefilter, kernels, picture, 0, 0);
     bench_end();
     return filtered.width == picture->width;
 }
@@ -150,14 +86,13 @@ static bool run_frame(const warp_kernels_t *kernels, const homography_t *homogra
                       const char *method)
 {
     const uint8_t border[3] = {0, 0, 0};
-    image_t panel = *picture;
-    panel.data = panel_bytes;
+    const image_t panel = bench_image(panel_bytes, picture->format);
     warp_report_t report = {0};
     warp_init(&warp, *warp_method_from_name(method), false, border);
     bench_begin();
     const bool made = warp_frame(&warp, kernels, &report, homography, &panel, picture);
     bench_end();
-    fprintf(stderr, "bench_arm: %.1f %% of the panel is lit\n", 100.0 * report.lit_pixels / (WIDTH * HEIGHT));
+    fprintf(stderr, "bench_arm: %.1f %% of the panel is lit\n", 100.0 * report.lit_pixels / BENCH_PIXELS);
     return made;
 }
 
@@ -168,18 +103,17 @@ int main(int argc, char **argv)
         return 2;
     }
     const bench_case_t *work = find("case", argv[1], cases, sizeof cases / sizeof *cases, sizeof *cases);
-    const bench_format_t *format = find("format", argv[2], formats, sizeof formats / sizeof *formats, sizeof *formats);
-    const bench_pose_t *pose = find("pose", argv[3], poses, sizeof poses / sizeof *poses, sizeof *poses);
+    const bench_format_t *format = find("format", argv[2], bench_formats, BENCH_FORMATS, sizeof *bench_formats);
+    const bench_pose_t *pose = find("pose", argv[3], bench_poses, BENCH_POSES, sizeof *bench_poses);
     const warp_kernels_t *kernels = warp_kernels_from_name(argv[4]);
     if (kernels == NULL) {
         fprintf(stderr, "bench_arm: no kernels are called %s\n", argv[4]);
         return 2;
     }
 
-    const int32_t channels = (int32_t)format->format;
-    const image_t picture = {picture_bytes, WIDTH, HEIGHT, WIDTH * channels, format->format};
-    const homography_t homography = homography_of_pose(pose);
-    paint(picture_bytes, channels);
+    const image_t picture = bench_image(picture_bytes, format->format);
+    const homography_t homography = bench_homography(pose->rows);
+    bench_paint(&picture);
     bool made = true;
     if (work->method != NULL)
         made = run_frame(kernels, &homography, &picture, work->method);
@@ -191,6 +125,6 @@ int main(int argc, char **argv)
         fprintf(stderr, "bench_arm: the work was not done\n");
         return 1;
     }
-    printf("%d\n", WIDTH * HEIGHT);
+    printf("%d\n", BENCH_PIXELS);
     return 0;
 }
