@@ -8,6 +8,7 @@
 
 # What a variant build changes: make BUILD=build/clang-O0 CC=clang OPT=-O0
 CC    := gcc
+CXX   := g++
 OPT   := -O3
 BUILD := build/host
 V     :=
@@ -157,6 +158,25 @@ $(BUILD)/bench_arm: $(call objects,tests/bench/bench_arm.c tests/bench/markers.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
+# OpenCV picks the best instructions of the CPU when it runs; ours are told of them here. Only the CSV goes to stdout.
+X86     := build/variants/x86
+X86_OPT := -O3 -march=native
+ROUNDS  := 15
+.PHONY: bench
+bench: setup-bench ## Time each pixel on this machine beside OpenCV and memcpy as CSV, and draw build/bench/bench.svg
+	$(Q)$(MAKE) --no-print-directory BUILD=$(X86) OPT='$(X86_OPT)' $(X86)/bench_x86 >&2
+	$(Q)mkdir -p build/bench
+	$(Q)$(X86)/bench_x86 $(ROUNDS) build/bench
+$(BUILD)/bench_x86: $(call objects,$(wildcard tests/bench/*_x86.c tests/bench/x86_*.c) tests/bench/workload.c \
+    tests/bench/opencv.cpp sim/files/gnuplot.c sim/files/file_io.c) $(BUILD)/libwarp.a
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lopencv_imgproc -lopencv_core -lstdc++ -lm
+$(BUILD)/obj/%.cpp.o: %.cpp
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  CXX   $<")
+	$(Q)$(CXX) $(CPPFLAGS) -isystem /usr/include/opencv4 -std=c++11 $(OPT) -g -Wall -Wextra -Werror -Wpedantic -Wshadow \
+	    -Wconversion -Wsign-conversion -c $< -o $@
+
 # Everything but the CSV goes to stderr. BASELINE=new makes these counts the ones that later runs are held to.
 ARM      := build/variants/aarch64-linux-gnu-gcc-O3
 KERNELS  := neon
@@ -167,7 +187,7 @@ bench-arm: setup-bench ## Count the instructions and A72 cycles of each pixel as
 	$(Q)$(MAKE) --no-print-directory BUILD=$(ARM) CC=aarch64-linux-gnu-gcc OPT=-O3 LDFLAGS=-static $(ARM)/bench_arm >&2
 	$(Q)tests/bench/test_count_plugin.sh $(BUILD) >&2
 	$(Q)tests/bench/check_a72_cycles.sh $(BUILD) >&2
-	$(Q)tests/bench/bench_arm.sh $(BUILD)/count_plugin.so $(ARM)/bench_arm build/bench $(KERNELS) $(BASELINE)
+	$(Q)tests/bench/bench_arm.sh $(BUILD)/count_plugin.so $(ARM)/bench_arm build/bench/arm $(KERNELS) $(BASELINE)
 
 # FORM=csv for all figures, FORM=readme to put the table into README.md.
 FORM := table

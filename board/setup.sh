@@ -48,7 +48,7 @@ go_on_without_apt() {
     say "this is no Debian system; it needs what Debian calls: $*"
     tools='gcc make gnuplot'
     [ "$group" != demo ] && tools="$tools clang aarch64-linux-gnu-gcc qemu-aarch64 python3"
-    [ "$group" = bench ] && tools="$tools llvm-objdump llvm-mca"
+    [ "$group" = bench ] && tools="$tools llvm-objdump llvm-mca g++"
     for tool in $tools; do
         command -v "$tool" >/dev/null || fail "$tool is not here: install it and the others with this system's own tools"
     done

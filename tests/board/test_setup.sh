@@ -144,14 +144,14 @@ did 'Timeout=300 make clang'
 
 name='root, benchmarks'
 machine 0 none
-have_all_but llvm
+have_all_but llvm libopencv-imgproc-dev
 run test
 exits 0
 did_nothing
 run bench
 exits 0
-said 'setup: installing: llvm'
-did 'Timeout=300 llvm'
+said 'setup: installing: llvm libopencv-imgproc-dev'
+did 'Timeout=300 llvm libopencv-imgproc-dev'
 
 name='sudo without a password'
 machine 1000 free
@@ -233,12 +233,12 @@ exits 1
 said 'clang is not here'
 
 name='no Debian, a benchmark tool missing'
-for tool in clang aarch64-linux-gnu-gcc qemu-aarch64 python3; do make_tool $tool ''; done
+for tool in clang aarch64-linux-gnu-gcc qemu-aarch64 python3 llvm-objdump llvm-mca; do make_tool $tool ''; done
 run test
 exits 0
 run bench
 exits 1
-said 'llvm-objdump is not here'
+said 'g++ is not here'
 
 name='no Debian, no compiler'
 remove_tool gcc
