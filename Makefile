@@ -32,8 +32,9 @@ TESTS_C    := $(wildcard tests/*/test_*.c tests/*/*/test_*.c)
 objects = $(patsubst %,$(BUILD)/obj/%.o,$(1))
 TESTS   := $(patsubst tests/%.c,$(BUILD)/tests/%,$(TESTS_C))
 SUPPORT_C := $(wildcard tests/support/*.c)
-# Programs that the scripts among the tests run, and a plugin for one of them.
-HELPERS := $(BUILD)/tests/sim/bus/serve_bus $(BUILD)/tests/firmware/print_frames $(BUILD)/count_plugin.so
+# Programs that the scripts among the tests run, and plugins for two of them.
+HELPERS := $(BUILD)/tests/sim/bus/serve_bus $(BUILD)/tests/firmware/print_frames $(BUILD)/count_plugin.so \
+           $(BUILD)/cache_plugin.so
 
 .PHONY: all programs
 all: setup-demo ## Build the firmware and the tools for this machine into build/host
@@ -151,10 +152,15 @@ run-unit-tests: $(TESTS) $(CHECK_KERNELS)
 # --- benchmarks ------------------------------------------------------------------------------------------------------
 
 $(BUILD)/count_plugin.so: $(call objects,tests/bench/count_plugin.c)
+$(BUILD)/cache_plugin.so: $(call objects,tests/bench/cache_plugin.c tests/bench/cache_model.c)
+$(BUILD)/%_plugin.so: $(call objects,tests/bench/qemu_plugin_version.c)
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -shared -o $@ $^
-$(BUILD)/obj/tests/bench/count_plugin.c.o: CFLAGS += -fPIC -fvisibility=hidden
-$(BUILD)/bench_arm: $(call objects,tests/bench/bench_arm.c tests/bench/markers.c tests/bench/workload.c) $(BUILD)/libwarp.a
+$(call objects,$(addprefix tests/bench/,count_plugin.c cache_plugin.c cache_model.c qemu_plugin_version.c)): \
+    CFLAGS += -fPIC -fvisibility=hidden
+$(BUILD)/tests/bench/test_cache_model: $(call objects,tests/bench/cache_model.c)
+$(BUILD)/bench_arm $(BUILD)/bench_cache: $(BUILD)/%: $(BUILD)/obj/tests/bench/%.c.o \
+    $(call objects,tests/bench/markers.c tests/bench/workload.c) $(BUILD)/libwarp.a
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
@@ -194,6 +200,12 @@ FORM := table
 .PHONY: budget
 budget: ## Print which method holds 60 Hz on which board, with how many cores and what headroom
 	$(Q)board/budget.sh $(FORM)
+
+.PHONY: bench-cache
+bench-cache: setup-test ## Count the cache lines that an A72 fetches per pixel as CSV, for turned frames in tiles of many sizes
+	$(Q)$(MAKE) --no-print-directory $(BUILD)/cache_plugin.so >&2
+	$(Q)$(MAKE) --no-print-directory BUILD=$(ARM) CC=aarch64-linux-gnu-gcc OPT=-O3 LDFLAGS=-static $(ARM)/bench_cache >&2
+	$(Q)tests/bench/bench_cache.sh $(BUILD)/cache_plugin.so $(ARM)/bench_cache build/bench/cache
 
 # --- fuzzing ---------------------------------------------------------------------------------------------------------
 

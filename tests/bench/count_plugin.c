@@ -38,15 +38,6 @@ static struct {
     uint64_t last_end;       /* of the last block executed: a call is a block's last instruction */
 } counter;
 
-int qemu_plugin_version = 1;
-
-/* QEMU reads the version before it calls anything, but after constructors have run. */
-__attribute__((constructor)) static void choose_version(void)
-{
-    if (qemu_plugin_n_vcpus == NULL)
-        qemu_plugin_version = 2;
-}
-
 static void executed(unsigned int cpu, void *data)
 {
     (void)cpu;
