@@ -158,7 +158,8 @@ $(BUILD)/%_plugin.so: $(call objects,tests/bench/qemu_plugin_version.c)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -shared -o $@ $^
 $(call objects,$(addprefix tests/bench/,count_plugin.c cache_plugin.c cache_model.c qemu_plugin_version.c)): \
     CFLAGS += -fPIC -fvisibility=hidden
-$(BUILD)/tests/bench/test_cache_model: $(call objects,tests/bench/cache_model.c)
+# Tests of parts that no library holds.
+$(addprefix $(BUILD)/tests/bench/test_,cache_model x86_row): $(BUILD)/tests/bench/test_%: $(BUILD)/obj/tests/bench/%.c.o
 $(BUILD)/bench_arm $(BUILD)/bench_cache: $(BUILD)/%: $(BUILD)/obj/tests/bench/%.c.o \
     $(call objects,tests/bench/markers.c tests/bench/workload.c) $(BUILD)/libwarp.a
 	@mkdir -p $(@D)
@@ -202,7 +203,7 @@ budget: ## Print which method holds 60 Hz on which board, with how many cores an
 	$(Q)board/budget.sh $(FORM)
 
 .PHONY: bench-cache
-bench-cache: setup-test ## Count the cache lines that an A72 fetches per pixel as CSV, for turned frames in tiles of many sizes
+bench-cache: setup-test ## Count the cache lines that an A72 fetches per pixel as CSV: turned frames, tiles of many sizes
 	$(Q)$(MAKE) --no-print-directory $(BUILD)/cache_plugin.so >&2
 	$(Q)$(MAKE) --no-print-directory BUILD=$(ARM) CC=aarch64-linux-gnu-gcc OPT=-O3 LDFLAGS=-static $(ARM)/bench_cache >&2
 	$(Q)tests/bench/bench_cache.sh $(BUILD)/cache_plugin.so $(ARM)/bench_cache build/bench/cache
