@@ -4,8 +4,9 @@
 // usage: bench_x86 ROUNDS FOLDER    CSV on stdout, what goes on on stderr, FOLDER/bench.svg
 //
 // The four ways take turns, ROUNDS times after one that is not timed, so that a busy moment of the machine meets all of
-// them. First OpenCV's picture is compared with ours: where both have the method and disagree, this fails. Times are
-// per pixel of the panel, for a whole warp_frame(); of `gauss` per pixel of the picture.
+// them; a ratio is of times of one round. First OpenCV's picture is compared with ours: where both have the method and
+// disagree, this fails. Times are per pixel of the panel, for a whole warp_frame(); of `gauss` per pixel of the
+// picture.
 #include <math.h>
 #include <stdlib.h>
 #include <time.h>
@@ -23,7 +24,7 @@ enum { ROWS = X86_CASES * BENCH_FORMATS * BENCH_POSES * THREAD_COUNTS };
 
 static warp_t warp;
 static uint8_t picture_bytes[BENCH_PIXELS * 4], panel_bytes[BENCH_PIXELS * 4], opencv_bytes[BENCH_PIXELS * 4];
-static double samples[X86_WAYS][MAX_ROUNDS];
+static double samples[X86_WAYS][MAX_ROUNDS], ratios[MAX_ROUNDS];
 
 static double now_ns(void)
 {
@@ -72,12 +73,14 @@ static bool measure(const x86_job_t *job, x86_row_t *row, int rounds)
             x86_do(job, way);
             samples[way][round] = (now_ns() - began) / BENCH_PIXELS;
         }
+        ratios[round] = samples[X86_OPENCV][round] / samples[X86_NEON][round];
     }
+    row->ratio = x86_spread_of(ratios, rounds);
     for (x86_way_t way = X86_NEON; way < X86_WAYS; way++)
-        row->time[way] = x86_time_of(samples[way], rounds);
+        row->ns_per_px[way] = x86_spread_of(samples[way], rounds);
     fprintf(stderr, "bench: %s %s %s, %d thread%s: %.2f ns/px, OpenCV's %s %.2f, memcpy %.2f\n", row->work->name,
-            row->format, row->pose, row->threads, row->threads == 1 ? "" : "s", row->time[X86_NEON].median_ns_per_px,
-            row->work->opencv_name, row->time[X86_OPENCV].median_ns_per_px, row->time[X86_MEMCPY].median_ns_per_px);
+            row->format, row->pose, row->threads, row->threads == 1 ? "" : "s", row->ns_per_px[X86_NEON].median,
+            row->work->opencv_name, row->ns_per_px[X86_OPENCV].median, row->ns_per_px[X86_MEMCPY].median);
     return true;
 }
 

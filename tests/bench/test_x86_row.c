@@ -15,17 +15,17 @@ static const x86_case_t linear = {"linear", "none+linear", OPENCV_LINEAR, "linea
 static const x86_case_t area = {"area", "area", OPENCV_LINEAR, "linear", 0};
 
 static const x86_row_t rows[] = {
-    {&linear, "xrgb", "strong", 1, {{2, 0.25}, {4.5, 0.5}, {0.3, 0.1}, {20, 1}}, 44.04},
-    {&area, "xrgb", "strong", 1, {{2, 0}, {2, 0}, {1, 0}, {20, 1}}, 20},
-    {&area, "xrgb", "mild", 1, {{8, 0}, {2, 0}, {1, 0}, {20, 1}}, 20},
-    {&area, "gray", "strong", 2, {{8, 0}, {2, 0}, {1, 0}, {20, 1}}, 20},
+    {&linear, "xrgb", "strong", 1, {{2, 0.25}, {4.5, 0.5}, {0.3, 0.1}, {20, 1}}, {2.25, 0}, 44.04},
+    {&area, "xrgb", "strong", 1, {{2, 0}, {2, 0}, {1, 0}, {20, 1}}, {1, 0}, 20},
+    {&area, "xrgb", "mild", 1, {{8, 0}, {2, 0}, {1, 0}, {20, 1}}, {0.25, 0}, 20},
+    {&area, "gray", "strong", 2, {{8, 0}, {2, 0}, {1, 0}, {20, 1}}, {0.25, 0}, 20},
 };
 
 static void assert_time(double *times, int count, double median, double iqr)
 {
-    const x86_time_t time = x86_time_of(times, count);
-    assert_float_equal(time.median_ns_per_px, median, 1e-9);
-    assert_float_equal(time.iqr_ns_per_px, iqr, 1e-9);
+    const x86_spread_t time = x86_spread_of(times, count);
+    assert_float_equal(time.median, median, 1e-9);
+    assert_float_equal(time.iqr, iqr, 1e-9);
 }
 
 static void quartiles_of_any_number_of_times(void **state)
@@ -64,8 +64,9 @@ static void a_line_has_the_fields_of_the_header(void **state)
     (void)state;
     char text[1024];
     said(text, sizeof text, print_two_lines);
-    assert_string_equal(text, "linear,xrgb,strong,1,2.000,0.250,linear,4.500,0.500,2.25,0.300,0.100,20.000,1.000,44.0\n"
-                              "area,xrgb,strong,1,2.000,0.000,linear,2.000,0.000,1.00,1.000,0.000,20.000,1.000,\n");
+    assert_string_equal(text,
+                        "linear,xrgb,strong,1,2.000,0.250,linear,4.500,0.500,2.25,0.00,0.300,0.100,20.000,1.000,44.0\n"
+                        "area,xrgb,strong,1,2.000,0.000,linear,2.000,0.000,1.00,0.00,1.000,0.000,20.000,1.000,\n");
     char header[1024];
     said(header, sizeof header, x86_print_header);
     int fields = 0;

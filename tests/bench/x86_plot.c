@@ -18,8 +18,8 @@ static void print_data(const gnuplot_t *plot, const x86_row_t *rows, int count, 
             continue;
         const bool same = row->work->at_least_db > 0;
         fprintf(plot->pipe, "\"%s%s%s\" %f %f %f \"%.1fx\"\n", row->work->name, same ? "" : "\\nbeside ",
-                same ? "" : row->work->opencv_name, row->time[X86_NEON].median_ns_per_px,
-                row->time[X86_OPENCV].median_ns_per_px, row->time[X86_MEMCPY].median_ns_per_px, x86_ratio(row));
+                same ? "" : row->work->opencv_name, row->ns_per_px[X86_NEON].median, row->ns_per_px[X86_OPENCV].median,
+                row->ns_per_px[X86_MEMCPY].median, row->ratio.median);
     }
     fputs("END\n", plot->pipe);
 }

@@ -19,33 +19,28 @@ static double quartile(const double *sorted, int count, int quarters)
     return part == 0 ? sorted[low] : sorted[low] + part * (sorted[low + 1] - sorted[low]);
 }
 
-x86_time_t x86_time_of(double *ns_per_px, int count)
+x86_spread_t x86_spread_of(double *values, int count)
 {
-    qsort(ns_per_px, (size_t)count, sizeof *ns_per_px, order);
-    return (x86_time_t){quartile(ns_per_px, count, 2), quartile(ns_per_px, count, 3) - quartile(ns_per_px, count, 1)};
-}
-
-double x86_ratio(const x86_row_t *row)
-{
-    return row->time[X86_OPENCV].median_ns_per_px / row->time[X86_NEON].median_ns_per_px;
+    qsort(values, (size_t)count, sizeof *values, order);
+    return (x86_spread_t){quartile(values, count, 2), quartile(values, count, 3) - quartile(values, count, 1)};
 }
 
 void x86_print_header(FILE *csv)
 {
-    fputs("case,format,pose,threads,neon_ns_per_px,neon_iqr,opencv,opencv_ns_per_px,opencv_iqr,ratio,"
+    fputs("case,format,pose,threads,neon_ns_per_px,neon_iqr,opencv,opencv_ns_per_px,opencv_iqr,ratio,ratio_iqr,"
           "memcpy_ns_per_px,memcpy_iqr,scalar_ns_per_px,scalar_iqr,psnr_db\n",
           csv);
 }
 
 void x86_print_row(FILE *csv, const x86_row_t *row)
 {
-    const x86_time_t *time = row->time;
+    const x86_spread_t *time = row->ns_per_px;
     fprintf(csv, "%s,%s,%s,%d,", row->work->name, row->format, row->pose, row->threads);
-    fprintf(csv, "%.3f,%.3f,", time[X86_NEON].median_ns_per_px, time[X86_NEON].iqr_ns_per_px);
-    fprintf(csv, "%s,%.3f,%.3f,", row->work->opencv_name, time[X86_OPENCV].median_ns_per_px,
-            time[X86_OPENCV].iqr_ns_per_px);
-    fprintf(csv, "%.2f,%.3f,%.3f,", x86_ratio(row), time[X86_MEMCPY].median_ns_per_px, time[X86_MEMCPY].iqr_ns_per_px);
-    fprintf(csv, "%.3f,%.3f,", time[X86_SCALAR].median_ns_per_px, time[X86_SCALAR].iqr_ns_per_px);
+    fprintf(csv, "%.3f,%.3f,", time[X86_NEON].median, time[X86_NEON].iqr);
+    fprintf(csv, "%s,%.3f,%.3f,", row->work->opencv_name, time[X86_OPENCV].median, time[X86_OPENCV].iqr);
+    fprintf(csv, "%.2f,%.2f,", row->ratio.median, row->ratio.iqr);
+    fprintf(csv, "%.3f,%.3f,", time[X86_MEMCPY].median, time[X86_MEMCPY].iqr);
+    fprintf(csv, "%.3f,%.3f,", time[X86_SCALAR].median, time[X86_SCALAR].iqr);
     if (row->work->at_least_db > 0)
         fprintf(csv, "%.1f", row->psnr_db);
     fputc('\n', csv);
@@ -68,8 +63,8 @@ void x86_print_figures(FILE *text, const x86_row_t *rows, int count)
                 strcmp(row->work->name, figures[f].work) != 0 || strcmp(row->format, figures[f].format) != 0)
                 continue;
             fprintf(text, "bench: %-11s %s strong: %.2f times as fast as OpenCV's %s, at least %.1f wanted: %s\n",
-                    row->work->name, row->format, x86_ratio(row), row->work->opencv_name, figures[f].at_least,
-                    x86_ratio(row) >= figures[f].at_least ? "reached" : "NOT REACHED");
+                    row->work->name, row->format, row->ratio.median, row->work->opencv_name, figures[f].at_least,
+                    row->ratio.median >= figures[f].at_least ? "reached" : "NOT REACHED");
         }
     }
 }

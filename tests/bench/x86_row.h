@@ -7,25 +7,23 @@
 
 #include "tests/bench/x86_work.h"
 
-/** Of all rounds. */
+/** Of one value of all rounds. */
 typedef struct {
-    double median_ns_per_px;
-    double iqr_ns_per_px; /**< from the first quartile to the third */
-} x86_time_t;
+    double median;
+    double iqr; /**< from the first quartile to the third */
+} x86_spread_t;
 
 typedef struct {
     const x86_case_t *work;
     const char *format, *pose;
     int threads;
-    x86_time_t time[X86_WAYS];
-    double psnr_db; /**< between ours and OpenCV's; of no meaning where work->at_least_db is 0 */
+    x86_spread_t ns_per_px[X86_WAYS];
+    x86_spread_t ratio; /**< how many times as fast as OpenCV, in each round */
+    double psnr_db;     /**< between ours and OpenCV's; of no meaning where work->at_least_db is 0 */
 } x86_row_t;
 
-/** @param ns_per_px  count times, 1 or more; sorted here. */
-x86_time_t x86_time_of(double *ns_per_px, int count);
-
-/** @return How many times as fast as OpenCV. */
-double x86_ratio(const x86_row_t *row);
+/** @param values  count of them, 1 or more; sorted here. */
+x86_spread_t x86_spread_of(double *values, int count);
 
 void x86_print_header(FILE *csv);
 void x86_print_row(FILE *csv, const x86_row_t *row);
