@@ -64,7 +64,11 @@ typedef struct {
  */
 typedef void resample_window_fn(const patch_t *patch, const window_t *window);
 
-enum { PREFILTER_MAX_RADIUS = 512 + 8 /**< of butter at the largest k, 64, with that of the spline */ };
+enum {
+    PREFILTER_MAX_RADIUS = 512 + 8, /**< of butter at the largest k, 64, with that of the spline */
+    FILTER_ROWS = 2,                /**< of one call of filter_columns_fn: they share what they read */
+    FILTER_SLACK = 4                /**< neighbours that filter_row_fn may read, if the radius is less */
+};
 
 /** A symmetric FIR filter: w[0] + 2 (w[1] + ... + w[radius]) = 1 << FILTER_SUM_LOG2. */
 typedef struct {
@@ -73,20 +77,23 @@ typedef struct {
 } fir_t;
 
 /**
- * First pass of a filter: one output row from 2 radius + 1 rows, column by column.
+ * First pass of a filter: FILTER_ROWS output rows from 2 radius + FILTER_ROWS rows, column by column.
  *
- * @param[out] v      count sums, each sum(weight * byte) rounded to FILTER_FIRST_BITS fraction bits, less the middle
- * grey.
- * @param      rows   rows[0] to rows[2 radius], each of count bytes.
+ * @param[out] v      Rows of count sums that do not overlap, each sum(weight * byte) rounded to FILTER_FIRST_BITS
+ *                    fraction bits, less the middle grey.
+ * @param      rows   rows[0] to rows[2 radius + FILTER_ROWS - 1], each of count bytes; v[i] is made of the 2 radius + 1
+ *                    from rows[i] on.
  * @param      count  Bytes of a row: width times channels.
  */
-typedef void filter_columns_fn(int16_t *restrict v, const uint8_t *const *rows, const fir_t *fir, int32_t count);
+typedef void filter_columns_fn(int16_t *const v[FILTER_ROWS], const uint8_t *const *rows, const fir_t *fir,
+                               int32_t count);
 
 /**
  * Second pass: one row of coefficients from the first pass's sums, sum(weight * v) rounded to COEFFICIENT_BITS.
  *
  * @param[out] out       count coefficients.
- * @param      v         v[-radius * channels] to v[count + radius * channels - 1] are read.
+ * @param      v         With r, the radius, at least FILTER_SLACK: v[-r * channels] to v[count + r * channels - 1] are
+ *                       readable.
  * @param      channels  Distance between neighbours of one channel: 1 or 4.
  */
 typedef void filter_row_fn(int16_t *restrict out, const int16_t *restrict v, const fir_t *fir, int32_t count,

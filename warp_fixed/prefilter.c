@@ -25,34 +25,43 @@ bool prefilter_begin(prefilter_t *prefilter, warp_filter_t filter, int32_t k_q16
     return splines || kind.filter != WARP_FILTER_NONE;
 }
 
-/* The first pass along row y, continued by mirroring. @return the row's first sum. */
-static const int16_t *sums_of_row(prefilter_t *prefilter, const warp_kernels_t *kernels, const image_t *picture,
-                                  int32_t y)
+/* A row of sums continued by mirroring: beyond one width, what is mirrored has been so before. */
+static void mirror_ends(int16_t *sums, int32_t width, int32_t channels, int32_t radius)
 {
-    const fir_t *fir = &prefilter->fir;
-    const int32_t channels = (int32_t)picture->format, width = picture->width;
-    const uint8_t *rows[2 * PREFILTER_MAX_RADIUS + 1];
-    for (int32_t d = -fir->radius; d <= fir->radius; d++)
-        rows[d + fir->radius] = image_row(picture, mirror_index(y + d, picture->height));
-    int16_t *middle = prefilter->sums + PREFILTER_MAX_RADIUS * channels;
-    kernels->filter_columns(middle, rows, fir, width * channels);
-    for (int32_t d = 1; d <= fir->radius; d++) {
+    for (int32_t d = 1; d <= radius; d++) {
         for (int32_t channel = 0; channel < channels; channel++) {
-            middle[-d * channels + channel] = middle[mirror_index(-d, width) * channels + channel];
-            middle[(width - 1 + d) * channels + channel] =
-                middle[mirror_index(width - 1 + d, width) * channels + channel];
+            sums[-d * channels + channel] = sums[(d - 1) * channels + channel];
+            sums[(width - 1 + d) * channels + channel] = sums[(width - d) * channels + channel];
         }
     }
-    return middle;
+}
+
+/* The first pass along rows y and after, of which the picture may have none: sums[i] is the first one of row y + i. */
+static void sums_of_rows(prefilter_t *prefilter, const warp_kernels_t *kernels, const image_t *picture, int32_t y,
+                         int16_t *sums[FILTER_ROWS])
+{
+    const fir_t *fir = &prefilter->fir;
+    const int32_t channels = (int32_t)picture->format;
+    const uint8_t *rows[2 * PREFILTER_MAX_RADIUS + FILTER_ROWS];
+    for (int32_t i = 0; i < 2 * fir->radius + FILTER_ROWS; i++)
+        rows[i] = image_row(picture, mirror_index(y - fir->radius + i, picture->height));
+    for (int i = 0; i < FILTER_ROWS; i++)
+        sums[i] = prefilter->sums[i] + PREFILTER_MAX_RADIUS * channels;
+    kernels->filter_columns(sums, rows, fir, picture->width * channels);
+    for (int i = 0; i < FILTER_ROWS; i++)
+        mirror_ends(sums[i], picture->width, channels, fir->radius);
 }
 
 image_t prefilter_pixels(prefilter_t *prefilter, const warp_kernels_t *kernels, const image_t *picture)
 {
     const int32_t channels = (int32_t)picture->format, count = picture->width * channels;
     const image_t filtered = {prefilter->pixels, picture->width, picture->height, count, picture->format};
-    for (int32_t y = 0; y < picture->height; y++)
-        kernels->filter_row_bytes(image_row(&filtered, y), sums_of_row(prefilter, kernels, picture, y), &prefilter->fir,
-                                  count, channels);
+    for (int32_t y = 0; y < picture->height; y += FILTER_ROWS) {
+        int16_t *sums[FILTER_ROWS];
+        sums_of_rows(prefilter, kernels, picture, y, sums);
+        for (int32_t i = 0; i < FILTER_ROWS && y + i < picture->height; i++)
+            kernels->filter_row_bytes(image_row(&filtered, y + i), sums[i], &prefilter->fir, count, channels);
+    }
     return filtered;
 }
 
@@ -65,9 +74,12 @@ coefficients_t prefilter_coefficients(prefilter_t *prefilter, const warp_kernels
     const coefficients_t made = {prefilter->coefficients + offset, picture->width, picture->height, channels};
     if (prefilter->made[level_x][level_y])
         return made;
-    for (int32_t y = 0; y < picture->height; y++)
-        kernels->filter_row(made.data + (ptrdiff_t)y * count, sums_of_row(prefilter, kernels, picture, y),
-                            &prefilter->fir, count, channels);
+    for (int32_t y = 0; y < picture->height; y += FILTER_ROWS) {
+        int16_t *sums[FILTER_ROWS];
+        sums_of_rows(prefilter, kernels, picture, y, sums);
+        for (int32_t i = 0; i < FILTER_ROWS && y + i < picture->height; i++)
+            kernels->filter_row(made.data + (ptrdiff_t)(y + i) * count, sums[i], &prefilter->fir, count, channels);
+    }
     prefilter->made[level_x][level_y] = true;
     return made;
 }

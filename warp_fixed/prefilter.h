@@ -22,8 +22,8 @@ typedef struct {
 typedef struct {
     prefilter_kind_t kind;
     fir_t fir;
-    int16_t sums[(IMAGE_MAX_WIDTH + 2 * PREFILTER_MAX_RADIUS) * 4]; /**< first pass of one row, with mirrored ends */
-    bool made[LEVELS][LEVELS];                                      /**< coefficients of [x level][y level] */
+    int16_t sums[FILTER_ROWS][(IMAGE_MAX_WIDTH + 2 * PREFILTER_MAX_RADIUS) * 4]; /**< first pass, with mirrored ends */
+    bool made[LEVELS][LEVELS]; /**< coefficients of [x level][y level] */
     union {
         uint8_t pixels[IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT * 4];
         int16_t coefficients[IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT * 4 + LEVELS_BYTES]; /**< the picture's, its levels' */

@@ -3,7 +3,7 @@
 #include "warp_fixed/fixed.h"
 #include "warp_fixed/kernels_scalar.h"
 
-void filter_columns_scalar(int16_t *restrict v, const uint8_t *const *rows, const fir_t *fir, int32_t count)
+static void filter_column_row(int16_t *restrict v, const uint8_t *const *rows, const fir_t *fir, int32_t count)
 {
     const int32_t r = fir->radius, middle = COEFFICIENT_MIDDLE << FILTER_FIRST_BITS;
     for (int32_t x = 0; x < count; x++) {
@@ -12,6 +12,12 @@ void filter_columns_scalar(int16_t *restrict v, const uint8_t *const *rows, cons
             sum += fir->weight[d] * (rows[r - d][x] + rows[r + d][x]);
         v[x] = (int16_t)(round_shift(sum, FILTER_SUM_LOG2 - FILTER_FIRST_BITS) - middle);
     }
+}
+
+void filter_columns_scalar(int16_t *const v[FILTER_ROWS], const uint8_t *const *rows, const fir_t *fir, int32_t count)
+{
+    for (int i = 0; i < FILTER_ROWS; i++)
+        filter_column_row(v[i], rows + i, fir, count);
 }
 
 static inline int32_t row_sum(const int16_t *v, const fir_t *fir, int32_t channels)

@@ -8,7 +8,7 @@
 
 enum { ROWS = 3, MAX_BYTES = CHECK_MAX_COUNT + 3, EDGE = 4 * PREFILTER_MAX_RADIUS };
 
-static outputs_t outputs;
+static outputs_t outputs[FILTER_ROWS];
 static fenced_t sources[ROWS], sums;
 
 /* What a source row must hold, at distance d from the middle, for the largest sum (or the smallest). */
@@ -19,7 +19,7 @@ static int extreme(int32_t weight, int smallest)
 
 static void check_columns(const warp_kernels_t *tested, const fir_t *fir, const char *name)
 {
-    static const uint8_t *rows[2 * PREFILTER_MAX_RADIUS + 1];
+    static const uint8_t *rows[2 * PREFILTER_MAX_RADIUS + FILTER_ROWS];
     rng_t rng = {(uint64_t)fir->radius};
     for (int kind = 0; kind < CHECK_FILLS + 2; kind++) {
         for (int32_t count = 0; count <= CHECK_MAX_COUNT; count++) {
@@ -29,15 +29,23 @@ static void check_columns(const warp_kernels_t *tested, const fir_t *fir, const 
                 memory[i] = fenced_place(&sources[i], (size_t)count, at_begin);
                 check_fill(memory[i], (size_t)count, kind < CHECK_FILLS ? kind : i % 2, &rng);
             }
-            for (int32_t d = -fir->radius; d <= fir->radius; d++)
-                rows[d + fir->radius] = kind < CHECK_FILLS
-                                            ? memory[rng_int(&rng, 0, ROWS - 1)]
-                                            : memory[extreme(fir->weight[d < 0 ? -d : d], kind - CHECK_FILLS)];
+            for (int32_t i = 0; i < 2 * fir->radius + FILTER_ROWS; i++) {
+                const int32_t d = i - fir->radius - count % FILTER_ROWS, distance = d < 0 ? -d : d;
+                const int32_t weight = distance <= fir->radius ? fir->weight[distance] : 0;
+                rows[i] = kind < CHECK_FILLS ? memory[rng_int(&rng, 0, ROWS - 1)]
+                                             : memory[extreme(weight, kind - CHECK_FILLS)];
+            }
             check_case("filter_columns, %s, radius %d, fill %d, count %d", name, fir->radius, kind, count);
-            outputs_begin(&outputs, (size_t)count * sizeof(int16_t));
-            warp_kernels_scalar.filter_columns(outputs.expected, rows, fir, count);
-            tested->filter_columns(outputs.found, rows, fir, count);
-            outputs_compare(&outputs);
+            int16_t *expected[FILTER_ROWS], *found[FILTER_ROWS];
+            for (int i = 0; i < FILTER_ROWS; i++) {
+                outputs_begin(&outputs[i], (size_t)count * sizeof(int16_t));
+                expected[i] = outputs[i].expected;
+                found[i] = outputs[i].found;
+            }
+            warp_kernels_scalar.filter_columns(expected, rows, fir, count);
+            tested->filter_columns(found, rows, fir, count);
+            for (int i = 0; i < FILTER_ROWS; i++)
+                outputs_compare(&outputs[i]);
         }
     }
 }
@@ -55,13 +63,18 @@ static void range_of(const fir_t *fir, int32_t range[2])
     }
 }
 
+static int32_t readable_radius(const fir_t *fir)
+{
+    return fir->radius < FILTER_SLACK ? FILTER_SLACK : fir->radius;
+}
+
 /* Sums of the first pass: random ones, or those that make the first output the largest or smallest. */
 static void fill_sums(int16_t *v, const fir_t *fir, int32_t count, int32_t channels, int kind, rng_t *rng)
 {
     int32_t range[2];
     range_of(fir, range);
-    for (int32_t i = 0; i < count + 2 * fir->radius * channels; i++) {
-        const int32_t d = i / channels - fir->radius, distance = d < 0 ? -d : d;
+    for (int32_t i = 0; i < count + 2 * readable_radius(fir) * channels; i++) {
+        const int32_t d = i / channels - readable_radius(fir), distance = d < 0 ? -d : d;
         const int32_t weight = distance <= fir->radius ? fir->weight[distance] : 0;
         v[i] = (int16_t)(kind == 0   ? rng_int(rng, range[0], range[1])
                          : kind == 1 ? range[rng_int(rng, 0, 1)]
@@ -74,20 +87,20 @@ static void check_rows(const warp_kernels_t *tested, const fir_t *fir, bool byte
     rng_t rng = {(uint64_t)fir->radius};
     for (int kind = 0; kind < 4; kind++) {
         for (int32_t count = 0; count <= CHECK_MAX_COUNT; count++) {
-            const int32_t channels = count % 4 == 0 ? 4 : 1, edge = fir->radius * channels;
+            const int32_t channels = count % 4 == 0 ? 4 : 1, edge = readable_radius(fir) * channels;
             int16_t *v = fenced_place(&sums, (size_t)(count + 2 * edge) * sizeof *v, count % 3 == 0);
             fill_sums(v, fir, count, channels, kind, &rng);
             check_case("%s, %s, radius %d, fill %d, count %d", bytes ? "filter_row_bytes" : "filter_row", name,
                        fir->radius, kind, count);
-            outputs_begin(&outputs, (size_t)count * (bytes ? 1 : sizeof(int16_t)));
+            outputs_begin(outputs, (size_t)count * (bytes ? 1 : sizeof(int16_t)));
             if (bytes) {
-                warp_kernels_scalar.filter_row_bytes(outputs.expected, v + edge, fir, count, channels);
-                tested->filter_row_bytes(outputs.found, v + edge, fir, count, channels);
+                warp_kernels_scalar.filter_row_bytes(outputs->expected, v + edge, fir, count, channels);
+                tested->filter_row_bytes(outputs->found, v + edge, fir, count, channels);
             } else {
-                warp_kernels_scalar.filter_row(outputs.expected, v + edge, fir, count, channels);
-                tested->filter_row(outputs.found, v + edge, fir, count, channels);
+                warp_kernels_scalar.filter_row(outputs->expected, v + edge, fir, count, channels);
+                tested->filter_row(outputs->found, v + edge, fir, count, channels);
             }
-            outputs_compare(&outputs);
+            outputs_compare(outputs);
         }
     }
 }
@@ -99,6 +112,27 @@ static void take_memory(void)
             sources[i] = fenced_new(MAX_BYTES);
     if (sums.begin == NULL)
         sums = fenced_new((MAX_BYTES + 2 * EDGE) * sizeof(int16_t));
+}
+
+static void check_filter(const warp_kernels_t *tested, const fir_t *fir, const char *name)
+{
+    check_columns(tested, fir, name);
+    check_rows(tested, fir, false, name);
+    check_rows(tested, fir, true, name);
+}
+
+/* Any weights whose absolute values sum to `size` and that sum to 1: one of each side is negative. */
+static void made_up(fir_t *fir, int32_t radius, int32_t size, rng_t *rng)
+{
+    const int32_t one = 1 << FILTER_SUM_LOG2, negative = -((size - one) / 4);
+    int32_t rest = one - 2 * negative;
+    fir->radius = radius;
+    for (int32_t d = 1; d < radius; d++) {
+        fir->weight[d] = (int16_t)rng_int(rng, 0, rest / (2 * radius));
+        rest -= 2 * fir->weight[d];
+    }
+    fir->weight[radius] = (int16_t)negative;
+    fir->weight[0] = (int16_t)rest;
 }
 
 void check_filters(const warp_kernels_t *tested)
@@ -113,9 +147,15 @@ void check_filters(const warp_kernels_t *tested)
             if (filter == WARP_FILTER_NONE && n != 1)
                 continue;
             fir_design(&fir, filter, ks_q16[n], splines);
-            check_columns(tested, &fir, names[filter]);
-            check_rows(tested, &fir, false, names[filter]);
-            check_rows(tested, &fir, true, names[filter]);
+            check_filter(tested, &fir, names[filter]);
         }
+    }
+    /* Two sums of equal distance fit 16 bits while the absolute weights sum to less than twice 1. */
+    static const int32_t sizes[] = {1 << FILTER_SUM_LOG2, 2 * (1 << FILTER_SUM_LOG2) - 4, 2 * (1 << FILTER_SUM_LOG2),
+                                    3 * (1 << FILTER_SUM_LOG2) - 8};
+    for (uint64_t seed = 1; seed <= 40; seed++) {
+        rng_t rng = {seed};
+        made_up(&fir, 1 + (int32_t)(seed / 4 % 10), sizes[seed % 4], &rng);
+        check_filter(tested, &fir, "made up");
     }
 }
