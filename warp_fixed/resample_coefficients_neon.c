@@ -1,104 +1,231 @@
 // SPDX-License-Identifier: Apache-2.0
-// A window of coefficients around each point: eight columns at a time.
+// A window of coefficients around each point: short windows (at most WINDOW_SHORT_TAPS along both axes).
+//
+// Weighed columns fit 16 bits again: 1.25 times a low-pass's 5919, or 18432 under a B-spline (fixed.h). What is always
+// inlined has constant bounds there, and no branches.
 #include <string.h>
 
+#include "warp_fixed/fixed.h"
 #include "warp_fixed/kernels_neon.h"
 #include "warp_fixed/kernels_scalar.h"
-#include "warp_fixed/window_place_neon.h"
-#include "warp_fixed/window_sums_neon.h"
+#include "warp_fixed/resample_long_neon.h"
+#include "warp_fixed/window_patch_neon.h"
 
-enum { LANES = 8, SHIFT = COEFFICIENT_SUM_LOG2 + COEFFICIENT_BITS, ROUNDING = 1 << (SHIFT - 1) };
+#define INLINE static inline __attribute__((always_inline))
 
-/* Weighed columns fit 16 bits again: 1.25 times a low-pass's 5919, or 18432 under a B-spline (fixed.h). */
-static inline void first_pass(int16_t *v, const int16_t *coefficients, ptrdiff_t stride, const int16_t *first,
-                              int32_t taps, int32_t columns)
+enum { LANES = 8, SHIFT = COEFFICIENT_SUM_LOG2 + COEFFICIENT_BITS };
+
+/* There are loops for 2, 4, 5, 6 and 8 taps; other windows are taken for longer ones: weights beyond theirs are 0. */
+static int32_t taps_of_loop(int32_t taps)
 {
-    for (int32_t c = 0; c < columns; c += LANES) {
-        int32x4_t low = vdupq_n_s32(0), high = low;
-        const int16_t *at = coefficients + c;
-        for (int32_t t = 0; t < taps; t++, at += stride) {
-            const int16x8_t row = vld1q_s16(at);
-            low = vmlal_n_s16(low, vget_low_s16(row), first[t]);
-            high = vmlal_n_s16(high, vget_high_s16(row), first[t]);
-        }
-        vst1q_s16(v + c,
-                  vcombine_s16(vrshrn_n_s32(low, COEFFICIENT_SUM_LOG2), vrshrn_n_s32(high, COEFFICIENT_SUM_LOG2)));
+    return taps <= 2 ? 2 : taps == 3 ? 4 : taps == 7 ? 8 : taps;
+}
+
+/* Sums of eight columns. */
+typedef struct {
+    int32x4_t low, high;
+} sums_t;
+
+INLINE int16x8_t eight_coefficients(const uint8_t *at)
+{
+    return vreinterpretq_s16_u8(vld1q_u8(at));
+}
+
+/* No function, for intrinsics want lanes that are constants. */
+#define ADD_ROW(sums, values, weights, lane)                                                                           \
+    ((sums_t){vmlal_lane_s16((sums).low, vget_low_s16(values), weights, lane),                                         \
+              vmlal_lane_s16((sums).high, vget_high_s16(values), weights, lane)})
+
+/* Eight columns of ny rows, weighed. Halves that nobody reads cost nothing. */
+INLINE int16x8_t weigh_columns(const uint8_t *const *rows, uint32_t at, int16x8_t weights, int32_t ny)
+{
+    const int16x4_t upper = vget_low_s16(weights), lower = vget_high_s16(weights);
+    const int16x8_t top = eight_coefficients(rows[0] + at);
+    sums_t sums = {vmull_lane_s16(vget_low_s16(top), upper, 0), vmull_lane_s16(vget_high_s16(top), upper, 0)};
+    sums = ADD_ROW(sums, eight_coefficients(rows[1] + at), upper, 1);
+    if (ny > 2) {
+        sums = ADD_ROW(sums, eight_coefficients(rows[2] + at), upper, 2);
+        sums = ADD_ROW(sums, eight_coefficients(rows[3] + at), upper, 3);
     }
+    if (ny > 4)
+        sums = ADD_ROW(sums, eight_coefficients(rows[4] + at), lower, 0);
+    if (ny > 5)
+        sums = ADD_ROW(sums, eight_coefficients(rows[5] + at), lower, 1);
+    if (ny > 6) {
+        sums = ADD_ROW(sums, eight_coefficients(rows[6] + at), lower, 2);
+        sums = ADD_ROW(sums, eight_coefficients(rows[7] + at), lower, 3);
+    }
+    return vcombine_s16(vrshrn_n_s32(sums.low, COEFFICIENT_SUM_LOG2), vrshrn_n_s32(sums.high, COEFFICIENT_SUM_LOG2));
+}
+
+/* Second-pass sums of the four channels of a pixel. A vector of columns has two pixels. */
+INLINE int32x4_t weigh_xrgb(const uint8_t *const *rows, uint32_t at, int16x8_t first, int32_t ny, int16x8_t second,
+                            int32_t nx)
+{
+    const int16x4_t left = vget_low_s16(second), right = vget_high_s16(second);
+    int16x8_t v[WINDOW_SHORT_TAPS / 2];
+    for (uint32_t pair = 0; 2 * pair < (uint32_t)nx; pair++)
+        v[pair] = weigh_columns(rows, at + 16 * pair, first, ny);
+    int32x4_t sums = vmull_lane_s16(vget_low_s16(v[0]), left, 0);
+    sums = vmlal_lane_s16(sums, vget_high_s16(v[0]), left, 1);
+    if (nx > 2) {
+        sums = vmlal_lane_s16(sums, vget_low_s16(v[1]), left, 2);
+        sums = vmlal_lane_s16(sums, vget_high_s16(v[1]), left, 3);
+    }
+    if (nx > 4)
+        sums = vmlal_lane_s16(sums, vget_low_s16(v[2]), right, 0);
+    if (nx > 5)
+        sums = vmlal_lane_s16(sums, vget_high_s16(v[2]), right, 1);
+    if (nx > 6) {
+        sums = vmlal_lane_s16(sums, vget_low_s16(v[3]), right, 2);
+        sums = vmlal_lane_s16(sums, vget_high_s16(v[3]), right, 3);
+    }
+    return sums;
+}
+
+/* Second-pass sums of a pixel, to be added up. */
+INLINE int32x4_t weigh_gray(const uint8_t *const *rows, uint32_t at, int16x8_t first, int32_t ny, int16x8_t second,
+                            int32_t nx)
+{
+    const int16x8_t v = weigh_columns(rows, at, first, ny);
+    const int32x4_t sums = vmull_s16(vget_low_s16(v), vget_low_s16(second));
+    return nx > 4 ? vmlal_high_s16(sums, v, second) : sums;
 }
 
 /* As pixel_from_centred(): the middle grey goes in before the shift, which is made in two (the second saturates). */
-static inline uint8x8_t pixels_from_sums(int32x4_t sums)
+INLINE uint8x8_t pixels_from_sums(int32x4_t a, int32x4_t b)
 {
-    const int32x4_t whole = vaddq_s32(sums, vdupq_n_s32((COEFFICIENT_MIDDLE << SHIFT) + ROUNDING));
-    const int16x4_t high = vshrn_n_s32(whole, 16);
-    return vqshrun_n_s16(vcombine_s16(high, high), SHIFT - 16);
+    const int32x4_t start = vdupq_n_s32((COEFFICIENT_MIDDLE << SHIFT) + (1 << (SHIFT - 1)));
+    return vqshrun_n_s16(vcombine_s16(vaddhn_s32(a, start), vaddhn_s32(b, start)), SHIFT - 16);
 }
 
-static void row_xrgb(uint8_t *out, const window_t *window, const int32_t *x_q18, const int32_t *y_q18, int32_t count)
+INLINE void store_pixels(uint8_t *out, const int32x4_t sums[PATCH_STEP], int32_t channels)
 {
-    const ptrdiff_t stride = (ptrdiff_t)window->coefficients.width * 4;
-    const int32_t nx = window->x.taps, ny = window->y.taps;
-    const placer_t placer = placer_of(window, (nx + 1) & -2, stride);
-    int16_t v[4 * WINDOW_MAX_TAPS + LANES];
-    places_t places;
-    int32_t k = 0;
-    for (; k + PLACE_STEP <= count; k += PLACE_STEP) {
-        if (!find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
-            const patch_t few = {out + (ptrdiff_t)k * 4, 0, x_q18 + k, y_q18 + k, PLACE_STEP, 1};
-            resample_coefficients_xrgb_scalar(&few, window);
-            continue;
-        }
-        for (int i = 0; i < PLACE_STEP; i++) {
-            const int16_t *corner = window->coefficients.data + places.texel[i];
-            first_pass(v, corner, stride, window->y.first + places.row_y[i] * window->y.row, ny, 4 * nx);
-            const int32x4_t sums = window_sums_xrgb(v, window->x.second + places.row_x[i] * window->x.row, nx, 0);
-            const uint8x8_t pixel = pixels_from_sums(sums);
-            memcpy(out + (ptrdiff_t)(k + i) * 4, &pixel, 4);
+    if (channels == 1) {
+        const int32x4_t four = vpaddq_s32(vpaddq_s32(sums[0], sums[1]), vpaddq_s32(sums[2], sums[3]));
+        const uint8x8_t pixels = pixels_from_sums(four, four);
+        memcpy(out, &pixels, PATCH_STEP);
+    } else {
+        vst1q_u8(out, vcombine_u8(pixels_from_sums(sums[0], sums[1]), pixels_from_sums(sums[2], sums[3])));
+    }
+}
+
+INLINE void weigh_patch(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t nx,
+                        int32_t ny, int32_t channels)
+{
+    const window_source_t from = *source; /* what is written might alias it */
+    const int16_t *first = window->y.first, *second = window->x.second;
+    const uint8_t *rows[WINDOW_SHORT_TAPS];
+    for (int t = 0; t < ny; t++)
+        rows[t] = from.data + (ptrdiff_t)t * from.stride;
+    for (int32_t r = 0; r < patch->height; r++) {
+        const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
+        uint8_t *out = patch->out + r * patch->stride;
+        for (int32_t k = 0; k < patch->width; k += PATCH_STEP) {
+            const int32_t at = step_begin(k, patch->width);
+            const window_step_t step = window_step(&from, x_q18 + at, y_q18 + at, channels == 1 ? 1 : 3);
+            int32x4_t sums[PATCH_STEP];
+            for (int i = 0; i < PATCH_STEP; i++) {
+                const int16x8_t down = vld1q_s16(first + step.row_y[i]), across = vld1q_s16(second + step.row_x[i]);
+                sums[i] = channels == 1 ? weigh_gray(rows, step.texel[i], down, ny, across, nx)
+                                        : weigh_xrgb(rows, step.texel[i], down, ny, across, nx);
+            }
+            store_pixels(out + (ptrdiff_t)at * channels, sums, channels);
         }
     }
-    const patch_t few = {out + (ptrdiff_t)k * 4, 0, x_q18 + k, y_q18 + k, count - k, 1};
-    resample_coefficients_xrgb_scalar(&few, window);
+}
+
+INLINE void weigh_rows(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t nx,
+                       int32_t channels)
+{
+    switch (taps_of_loop(window->y.taps)) {
+    case 2:
+        weigh_patch(patch, window, source, nx, 2, channels);
+        break;
+    case 4:
+        weigh_patch(patch, window, source, nx, 4, channels);
+        break;
+    case 5:
+        weigh_patch(patch, window, source, nx, 5, channels);
+        break;
+    case 6:
+        weigh_patch(patch, window, source, nx, 6, channels);
+        break;
+    default:
+        weigh_patch(patch, window, source, nx, WINDOW_SHORT_TAPS, channels);
+    }
+}
+
+static void two_xrgb(const patch_t *patch, const window_t *window, const window_source_t *source)
+{
+    weigh_rows(patch, window, source, 2, 4);
+}
+
+static void four_xrgb(const patch_t *patch, const window_t *window, const window_source_t *source)
+{
+    weigh_rows(patch, window, source, 4, 4);
+}
+
+static void five_xrgb(const patch_t *patch, const window_t *window, const window_source_t *source)
+{
+    weigh_rows(patch, window, source, 5, 4);
+}
+
+static void six_xrgb(const patch_t *patch, const window_t *window, const window_source_t *source)
+{
+    weigh_rows(patch, window, source, 6, 4);
+}
+
+static void eight_xrgb(const patch_t *patch, const window_t *window, const window_source_t *source)
+{
+    weigh_rows(patch, window, source, WINDOW_SHORT_TAPS, 4);
+}
+
+/* By the window's columns. */
+static weigh_patch_fn *const by_columns_xrgb[WINDOW_SHORT_TAPS + 1] = {
+    NULL, two_xrgb, two_xrgb, four_xrgb, four_xrgb, five_xrgb, six_xrgb, eight_xrgb, eight_xrgb,
+};
+
+static void four_gray(const patch_t *patch, const window_t *window, const window_source_t *source)
+{
+    weigh_rows(patch, window, source, 4, 1);
+}
+
+static void eight_gray(const patch_t *patch, const window_t *window, const window_source_t *source)
+{
+    weigh_rows(patch, window, source, WINDOW_SHORT_TAPS, 1);
+}
+
+static texels_t texels_of(const coefficients_t *from)
+{
+    const int32_t texel_bytes = from->channels * (int32_t)sizeof *from->data;
+    return (texels_t){(const uint8_t *)from->data, from->width, from->height, (ptrdiff_t)from->width * texel_bytes,
+                      texel_bytes};
+}
+
+static bool is_short(const window_t *window)
+{
+    return window->x.taps <= WINDOW_SHORT_TAPS && window->y.taps <= WINDOW_SHORT_TAPS;
 }
 
 void resample_coefficients_xrgb_neon(const patch_t *patch, const window_t *window)
 {
-    for (int32_t r = 0; r < patch->height; r++)
-        row_xrgb(patch->out + r * patch->stride, window, patch->x_q18 + r * PATCH_MAX_WIDTH,
-                 patch->y_q18 + r * PATCH_MAX_WIDTH, patch->width);
-}
-
-static void row_gray(uint8_t *out, const window_t *window, const int32_t *x_q18, const int32_t *y_q18, int32_t count)
-{
-    const ptrdiff_t stride = window->coefficients.width;
-    const int32_t nx = window->x.taps, ny = window->y.taps;
-    const placer_t placer = placer_of(window, (nx + LANES - 1) & -LANES, stride);
-    int16_t v[WINDOW_MAX_TAPS + 2 * LANES];
-    places_t places;
-    int32_t k = 0;
-    for (; k + PLACE_STEP <= count; k += PLACE_STEP) {
-        if (!find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
-            const patch_t few = {out + k, 0, x_q18 + k, y_q18 + k, PLACE_STEP, 1};
-            resample_coefficients_gray_scalar(&few, window);
-            continue;
-        }
-        int32x4_t sums[PLACE_STEP];
-        for (int i = 0; i < PLACE_STEP; i++) {
-            const int16_t *corner = window->coefficients.data + places.texel[i];
-            first_pass(v, corner, stride, window->y.first + places.row_y[i] * window->y.row, ny, nx);
-            vst1q_s16(v + nx, vdupq_n_s16(0));
-            sums[i] = window_sums_gray(v, window->x.second + places.row_x[i] * window->x.row, nx);
-        }
-        const uint8x8_t pixels =
-            pixels_from_sums(vpaddq_s32(vpaddq_s32(sums[0], sums[1]), vpaddq_s32(sums[2], sums[3])));
-        memcpy(out + k, &pixels, PLACE_STEP);
+    if (!is_short(window)) {
+        resample_long_coefficients_xrgb_neon(patch, window);
+        return;
     }
-    const patch_t few = {out + k, 0, x_q18 + k, y_q18 + k, count - k, 1};
-    resample_coefficients_gray_scalar(&few, window);
+    const texels_t texels = texels_of(&window->coefficients);
+    const int32_t nx = window->x.taps, taps[2] = {(taps_of_loop(nx) + 1) & -2, taps_of_loop(window->y.taps)};
+    weigh_anywhere(patch, window, &texels, taps, 4, by_columns_xrgb[nx]);
 }
 
 void resample_coefficients_gray_neon(const patch_t *patch, const window_t *window)
 {
-    for (int32_t r = 0; r < patch->height; r++)
-        row_gray(patch->out + r * patch->stride, window, patch->x_q18 + r * PATCH_MAX_WIDTH,
-                 patch->y_q18 + r * PATCH_MAX_WIDTH, patch->width);
+    if (!is_short(window)) {
+        resample_long_coefficients_gray_neon(patch, window);
+        return;
+    }
+    const texels_t texels = texels_of(&window->coefficients);
+    const int32_t taps[2] = {LANES, taps_of_loop(window->y.taps)};
+    weigh_anywhere(patch, window, &texels, taps, 1, window->x.taps <= 4 ? four_gray : eight_gray);
 }

@@ -7,5 +7,7 @@
 
 resample_window_fn resample_long_gray_neon;
 resample_window_fn resample_long_xrgb_neon;
+resample_window_fn resample_long_coefficients_gray_neon;
+resample_window_fn resample_long_coefficients_xrgb_neon;
 
 #endif
