@@ -40,8 +40,8 @@ const warp_kernels_t warp_kernels_neon = {
     .filter_row_bytes = filter_row_bytes_neon,
     .ls_forward = ls_forward_neon,
     .ls_backward = ls_backward_neon,
-    .ls_gray = resample_ls_gray_scalar,
-    .ls_xrgb = resample_ls_xrgb_scalar,
+    .ls_gray = resample_ls_gray_neon,
+    .ls_xrgb = resample_ls_xrgb_neon,
 };
 
 const warp_kernels_t *const warp_kernels_levels[WARP_KERNELS_LEVELS] = {&warp_kernels_scalar, &warp_kernels_neon};

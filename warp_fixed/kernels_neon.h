@@ -17,5 +17,7 @@ filter_row_fn filter_row_neon;
 filter_row_bytes_fn filter_row_bytes_neon;
 ls_forward_fn ls_forward_neon;
 ls_backward_fn ls_backward_neon;
+resample_ls_fn resample_ls_gray_neon;
+resample_ls_fn resample_ls_xrgb_neon;
 
 #endif

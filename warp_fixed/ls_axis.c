@@ -8,8 +8,6 @@
 // make it 64 times as large at most.
 #include "warp_fixed/ls_axis.h"
 
-enum { FACTOR_BITS = 23 };
-
 static const int32_t one_q31 = INT32_MAX;
 
 typedef struct {
@@ -138,6 +136,14 @@ static void solve(ls_axis_t *axis, const uint16_t *weight)
         solve_row(&axis->solution[j]);
 }
 
+/* Of a phase, counted from the end that is nearer. */
+static int32_t row_of(const ls_axis_t *axis, int32_t phase)
+{
+    if (phase < axis->edge_phases)
+        return phase;
+    return axis->edge_phases + ((phase - axis->middle_phase) & (PHASES - 1));
+}
+
 /*
  * Away from the ends all pieces are alike: from the third on for least squares, and after 4.5 pixels for not-a-knot.
  * Rows beyond the axis' middle are never asked for.
@@ -149,10 +155,11 @@ static void tabulate(ls_axis_t *axis)
     const int32_t half = axis->phases / 2;
     axis->edge_phases = half < wanted ? half + 1 : wanted;
     axis->middle_phase = axis->knots.interpolates ? 3 * PHASES / 2 : 0;
-    for (int32_t phase = 0; phase < axis->edge_phases; phase++)
-        axis->edge[phase].first = ls_basis(axis->edge[phase].weight, &axis->knots, phase * units);
-    for (int32_t phase = wanted; phase <= half && phase < wanted + PHASES; phase++)
-        (void)ls_basis(axis->middle[(phase - axis->middle_phase) % PHASES], &axis->knots, phase * units);
+    for (int32_t phase = 0; phase <= half && phase < wanted + PHASES; phase++)
+        (void)ls_basis(axis->weight[0][row_of(axis, phase)], &axis->knots, phase * units);
+    for (int32_t row = 0; row < LS_EDGE_PHASES + PHASES; row++)
+        for (int t = 0; t < LS_TAPS; t++)
+            axis->weight[1][row][t] = axis->weight[0][row][LS_TAPS - 1 - t];
 }
 
 void ls_axis_update(ls_axis_t *axis, int32_t size, int32_t k_q16, const uint16_t *weight)
@@ -165,7 +172,7 @@ void ls_axis_update(ls_axis_t *axis, int32_t size, int32_t k_q16, const uint16_t
     axis->equations = size > LS_TAPS ? size : LS_TAPS;
     axis->coefficients = ls_coefficients(&knots);
     axis->phases = ls_phases(&knots);
-    axis->phase_factor = (int32_t)(((int64_t)axis->phases << FACTOR_BITS) / size);
+    axis->phase_factor = (int32_t)(((int64_t)axis->phases << LS_FACTOR_BITS) / size);
     solve(axis, weight);
     tabulate(axis);
 }
@@ -173,19 +180,11 @@ void ls_axis_update(ls_axis_t *axis, int32_t size, int32_t k_q16, const uint16_t
 ls_taps_t ls_axis_taps(const ls_axis_t *axis, int32_t x_q18)
 {
     const int64_t x = clamp_i32(x_q18, 0, axis->knots.size << GRID_FRACTION_BITS);
-    const int32_t phase = (int32_t)round_shift(x * axis->phase_factor, GRID_FRACTION_BITS + FACTOR_BITS);
+    const int32_t phase = (int32_t)round_shift(x * axis->phase_factor, GRID_FRACTION_BITS + LS_FACTOR_BITS);
     const bool mirrored = phase > axis->phases - phase;
     const int32_t from_end = mirrored ? axis->phases - phase : phase;
-    ls_taps_t taps;
-    if (from_end < axis->edge_phases) {
-        taps = axis->edge[from_end];
-    } else {
-        const int32_t from_piece = from_end - axis->middle_phase;
-        const int32_t *weight = axis->middle[from_piece % PHASES];
-        taps = (ls_taps_t){{weight[0], weight[1], weight[2], weight[3]}, from_piece >> PHASE_BITS};
-    }
-    if (!mirrored)
-        return taps;
-    return (ls_taps_t){{taps.weight[3], taps.weight[2], taps.weight[1], taps.weight[0]},
-                       axis->coefficients - LS_TAPS - taps.first};
+    const int32_t from_middle = from_end - axis->middle_phase;
+    const int32_t piece = from_middle < 0 ? 0 : from_middle >> PHASE_BITS;
+    return (ls_taps_t){axis->weight[mirrored][row_of(axis, from_end)],
+                       mirrored ? axis->coefficients - LS_TAPS - piece : piece};
 }

@@ -20,6 +20,7 @@ enum {
     LS_WEIGHT_ONE = 32768,         /**< an axis' largest weight */
     LS_WEIGHT_MIN = LS_WEIGHT_ONE / 4096,
     LS_EDGE_PHASES = 9 * PHASES / 2, /**< 4.5 pixels of not-a-knot; least squares needs 2 knot distances */
+    LS_FACTOR_BITS = 23,             /**< x_q18 * phase_factor >> (18 + 23) is a phase */
     LS_STATE_BITS = 6                /**< right-hand sides have as many fraction bits more than coefficients */
 };
 
@@ -40,7 +41,7 @@ typedef struct {
 
 /** Weights of the four coefficients from `first` on, Q30, with sum 2^30. */
 typedef struct {
-    int32_t weight[LS_TAPS];
+    const int32_t *weight; /**< LS_TAPS of them, in the axis */
     int32_t first;
 } ls_taps_t;
 
@@ -50,13 +51,12 @@ typedef struct {
     int32_t equations;    /**< max(size, 4) */
     int32_t coefficients; /**< 4 to equations */
     int32_t phases;       /**< length of the axis */
-    int32_t phase_factor; /**< phases per pixel, Q23 */
-    int32_t edge_phases;  /**< rows of `edge` in use; from there to the axis' middle, `middle` serves */
+    int32_t phase_factor; /**< phases per pixel, with LS_FACTOR_BITS fraction bits */
+    int32_t edge_phases;  /**< a row of weights for each; from there on to the axis' middle, PHASES rows serve */
     int32_t middle_phase; /**< where piece 0 would begin, were all pieces alike */
     ls_equation_t equation[LS_MAX_SIZE];
     ls_solution_t solution[LS_MAX_SIZE];
-    ls_taps_t edge[LS_EDGE_PHASES];
-    int32_t middle[PHASES][LS_TAPS];
+    int32_t weight[2][LS_EDGE_PHASES + PHASES][LS_TAPS]; /**< rows from the near end; and in reverse, from the far */
 } ls_axis_t;
 
 /** Forget the axis. */

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// The least-squares surface at each point, four points at a time.
+//
+// No mean leaves the range of its terms, so sums fit 32 bits again as soon as the weights' bits are shifted out.
+#include <stdbool.h>
+#include <string.h>
+
+#include "warp_fixed/fixed.h"
+#include "warp_fixed/kernels_neon.h"
+#include "warp_fixed/kernels_scalar.h"
+#include "warp_fixed/window_patch_neon.h"
+
+#define INLINE static inline __attribute__((always_inline))
+
+enum { ROWS = LS_EDGE_PHASES + PHASES /* of weights, from either end */ };
+
+/* Along one axis, of PATCH_STEP points: their first coefficients, and their weights as rows of the axis' table. */
+typedef struct {
+    int32x4_t first, row;
+} ls_places_t;
+
+/* As ls_axis_taps(). */
+INLINE ls_places_t places_of(const ls_axis_t *axis, const int32_t *x_q18)
+{
+    const int32x4_t size = vdupq_n_s32(axis->knots.size << GRID_FRACTION_BITS), zero = vdupq_n_s32(0);
+    const int32x4_t x = vminq_s32(vmaxq_s32(vld1q_s32(x_q18), zero), size);
+    const int32x4_t factor = vdupq_n_s32(axis->phase_factor);
+    const int32x4_t low = vreinterpretq_s32_s64(vmull_s32(vget_low_s32(x), vget_low_s32(factor)));
+    const int32x4_t high = vreinterpretq_s32_s64(vmull_high_s32(x, factor));
+    const int32x4_t phase = vrshrq_n_s32(vuzp2q_s32(low, high), GRID_FRACTION_BITS + LS_FACTOR_BITS - 32);
+
+    const int32x4_t other = vsubq_s32(vdupq_n_s32(axis->phases), phase), from_end = vminq_s32(phase, other);
+    const uint32x4_t mirrored = vcgtq_s32(phase, other);
+    const int32x4_t edge = vdupq_n_s32(axis->edge_phases);
+    const int32x4_t from_middle = vsubq_s32(from_end, vdupq_n_s32(axis->middle_phase));
+    const int32x4_t repeated = vaddq_s32(vandq_s32(from_middle, vdupq_n_s32(PHASES - 1)), edge);
+    const int32x4_t row = vbslq_s32(vcltq_s32(from_end, edge), from_end, repeated);
+    const int32x4_t piece = vmaxq_s32(vshrq_n_s32(from_middle, PHASE_BITS), zero);
+    const int32x4_t last = vdupq_n_s32(axis->coefficients - LS_TAPS);
+    return (ls_places_t){
+        vbslq_s32(mirrored, vsubq_s32(last, piece), piece),
+        vaddq_s32(row, vandq_s32(vreinterpretq_s32_u32(mirrored), vdupq_n_s32(ROWS))),
+    };
+}
+
+/* 64-bit sums of four values. */
+typedef struct {
+    int64x2_t low, high;
+} sums_t;
+
+/* No functions, for intrinsics want lanes that are constants. */
+#define PRODUCTS(values, weights, lane)                                                                                \
+    ((sums_t){vmull_lane_s32(vget_low_s32(values), weights, lane),                                                     \
+              vmull_lane_s32(vget_high_s32(values), weights, lane)})
+#define ADD_PRODUCTS(sums, values, weights, lane)                                                                      \
+    ((sums_t){vmlal_lane_s32((sums).low, vget_low_s32(values), weights, lane),                                         \
+              vmlal_lane_s32((sums).high, vget_high_s32(values), weights, lane)})
+
+INLINE sums_t weighed(int32x4_t a, int32x4_t b, int32x4_t c, int32x4_t d, int32x4_t weights)
+{
+    const int32x2_t left = vget_low_s32(weights), right = vget_high_s32(weights);
+    sums_t sums = PRODUCTS(a, left, 0);
+    sums = ADD_PRODUCTS(sums, b, left, 1);
+    sums = ADD_PRODUCTS(sums, c, right, 0);
+    return ADD_PRODUCTS(sums, d, right, 1);
+}
+
+/* Four channels of a row's mean. */
+INLINE int32x4_t row_xrgb(const int32_t *at, int32x4_t weights)
+{
+    const sums_t sums = weighed(vld1q_s32(at), vld1q_s32(at + 4), vld1q_s32(at + 8), vld1q_s32(at + 12), weights);
+    return vcombine_s32(vrshrn_n_s64(sums.low, LS_WEIGHT_BITS), vrshrn_n_s64(sums.high, LS_WEIGHT_BITS));
+}
+
+/* What each mean is, rounded down. */
+INLINE int32x4_t evaluate_xrgb(const int32_t *at, ptrdiff_t stride, int32x4_t across, int32x4_t down)
+{
+    const sums_t sums = weighed(row_xrgb(at, across), row_xrgb(at + stride, across), row_xrgb(at + 2 * stride, across),
+                                row_xrgb(at + 3 * stride, across), down);
+    return vcombine_s32(vshrn_n_s64(sums.low, LS_WEIGHT_BITS), vshrn_n_s64(sums.high, LS_WEIGHT_BITS));
+}
+
+/* Two sums to be added up. */
+INLINE int64x2_t weighed_gray(int32x4_t values, int32x4_t weights)
+{
+    return vmlal_high_s32(vmull_s32(vget_low_s32(values), vget_low_s32(weights)), values, weights);
+}
+
+INLINE int32x2_t two_rows_gray(const int32_t *at, ptrdiff_t stride, int32x4_t weights)
+{
+    const int64x2_t sums =
+        vpaddq_s64(weighed_gray(vld1q_s32(at), weights), weighed_gray(vld1q_s32(at + stride), weights));
+    return vrshrn_n_s64(sums, LS_WEIGHT_BITS);
+}
+
+INLINE int64x2_t evaluate_gray(const int32_t *at, ptrdiff_t stride, int32x4_t across, int32x4_t down)
+{
+    return weighed_gray(vcombine_s32(two_rows_gray(at, stride, across), two_rows_gray(at + 2 * stride, stride, across)),
+                        down);
+}
+
+/* Means with fraction_bits, of which there are some, to bytes. */
+INLINE uint16x4_t sixteen_bits(int32x4_t means, int32x4_t shift)
+{
+    return vqmovun_s32(vrshlq_s32(means, shift));
+}
+
+INLINE void evaluate_patch(const patch_t *patch, const ls_surface_t *surface, int32_t channels)
+{
+    const ls_axis_t *const x_axis = surface->x, *const y_axis = surface->y;
+    const ptrdiff_t stride = (ptrdiff_t)x_axis->coefficients * channels;
+    const int32x4_t shift = vdupq_n_s32(-surface->fraction_bits);
+    const int32_t *across = &x_axis->weight[0][0][0], *down = &y_axis->weight[0][0][0];
+    for (int32_t r = 0; r < patch->height; r++) {
+        const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
+        uint8_t *out = patch->out + r * patch->stride;
+        for (int32_t k = 0; k < patch->width; k += PATCH_STEP) {
+            const int32_t at = step_begin(k, patch->width);
+            const ls_places_t x = places_of(x_axis, x_q18 + at), y = places_of(y_axis, y_q18 + at);
+            uint32_t corner[PATCH_STEP], x_row[PATCH_STEP], y_row[PATCH_STEP];
+            vst1q_u32(corner,
+                      vreinterpretq_u32_s32(vmlaq_n_s32(vmulq_n_s32(x.first, channels), y.first, (int32_t)stride)));
+            vst1q_u32(x_row, vreinterpretq_u32_s32(vshlq_n_s32(x.row, 2)));
+            vst1q_u32(y_row, vreinterpretq_u32_s32(vshlq_n_s32(y.row, 2)));
+            if (channels == 4) {
+                uint16x4_t pixel[PATCH_STEP];
+                for (int i = 0; i < PATCH_STEP; i++)
+                    pixel[i] = sixteen_bits(evaluate_xrgb(surface->coefficients + corner[i], stride,
+                                                          vld1q_s32(across + x_row[i]), vld1q_s32(down + y_row[i])),
+                                            shift);
+                vst1q_u8(out + (ptrdiff_t)at * 4, vcombine_u8(vqmovn_u16(vcombine_u16(pixel[0], pixel[1])),
+                                                              vqmovn_u16(vcombine_u16(pixel[2], pixel[3]))));
+            } else {
+                int64x2_t sums[PATCH_STEP];
+                for (int i = 0; i < PATCH_STEP; i++)
+                    sums[i] = evaluate_gray(surface->coefficients + corner[i], stride, vld1q_s32(across + x_row[i]),
+                                            vld1q_s32(down + y_row[i]));
+                const int32x4_t means = vcombine_s32(vshrn_n_s64(vpaddq_s64(sums[0], sums[1]), LS_WEIGHT_BITS),
+                                                     vshrn_n_s64(vpaddq_s64(sums[2], sums[3]), LS_WEIGHT_BITS));
+                const uint16x4_t four = sixteen_bits(means, shift);
+                const uint8x8_t pixels = vqmovn_u16(vcombine_u16(four, four));
+                memcpy(out + at, &pixels, PATCH_STEP);
+            }
+        }
+    }
+}
+
+void resample_ls_xrgb_neon(const patch_t *patch, const ls_surface_t *surface)
+{
+    if (patch->width < PATCH_STEP || surface->fraction_bits == 0)
+        resample_ls_xrgb_scalar(patch, surface);
+    else
+        evaluate_patch(patch, surface, 4);
+}
+
+void resample_ls_gray_neon(const patch_t *patch, const ls_surface_t *surface)
+{
+    if (patch->width < PATCH_STEP || surface->fraction_bits == 0)
+        resample_ls_gray_scalar(patch, surface);
+    else
+        evaluate_patch(patch, surface, 1);
+}
