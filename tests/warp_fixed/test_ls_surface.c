@@ -34,7 +34,8 @@ static image_t random_picture(rng_t *rng, image_format_t format)
 static uint8_t gray_at(const ls_surface_t *surface, int32_t x_q18, int32_t y_q18)
 {
     uint8_t pixel;
-    warp_kernels_scalar.ls_gray(&pixel, surface, &x_q18, &y_q18, 1);
+    const patch_t patch = {&pixel, 0, &x_q18, &y_q18, 1, 1};
+    warp_kernels_scalar.ls_gray(&patch, surface);
     return pixel;
 }
 
@@ -149,7 +150,8 @@ static void channels_are_fitted_alike(void **state)
             for (int n = 0; n < 300; n++) {
                 const int32_t x = random_point(&rng, gray.width), y = random_point(&rng, gray.height);
                 uint8_t pixel[4];
-                warp_kernels_scalar.ls_xrgb(pixel, &color, &x, &y, 1);
+                const patch_t patch = {pixel, 0, &x, &y, 1, 1};
+                warp_kernels_scalar.ls_xrgb(&patch, &color);
                 assert_int_equal(pixel[channel], gray_at(&surface, x, y));
             }
         }
@@ -213,7 +215,8 @@ static void nothing_else_is_written(void **state)
     const ls_surface_t surface = ls_fit(&ls, &warp_kernels_scalar, &picture, 2 << 16);
     for (int32_t count = 0; count <= 7; count++) {
         memset(out, 0xa5, sizeof out);
-        warp_kernels_scalar.ls_xrgb(out + 4, &surface, points, points, count);
+        const patch_t patch = {out + 4, 0, points, points, count, 1};
+        warp_kernels_scalar.ls_xrgb(&patch, &surface);
         for (int32_t i = 0; i < 4; i++)
             assert_true(out[i] == 0xa5 && out[4 + 4 * count + i] == 0xa5);
     }
