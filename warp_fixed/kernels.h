@@ -103,7 +103,28 @@ typedef void filter_row_fn(int16_t *restrict out, const int16_t *restrict v, con
 typedef void filter_row_bytes_fn(uint8_t *restrict out, const int16_t *restrict v, const fir_t *fir, int32_t count,
                                  int32_t channels);
 
-enum { LS_LANES = 16 /**< pictures are fitted in strips of so many rows, or columns, times channels */ };
+enum {
+    LS_LANES = 16,     /**< pictures are fitted in strips of so many rows, or columns, times channels */
+    LS_PIXEL_BITS = 17 /**< fraction bits of pixels, and of right-hand sides */
+};
+
+/**
+ * Take one pixel of each row of a strip.
+ *
+ * @param[out] data  LS_LANES: row after row, channel after channel, byte << LS_PIXEL_BITS.
+ * @param      rows  LS_LANES / channels of them.
+ * @param      x     The pixel.
+ */
+typedef void ls_pixels_fn(int32_t *restrict data, const uint8_t *const *rows, int32_t x);
+
+/**
+ * Scale each lane: to = from * 2^shift, rounded half up, saturated to +-(2^31 - 1).
+ *
+ * @param[out] to     LS_LANES.
+ * @param      from   LS_LANES.
+ * @param      shift  LS_LANES, each -31 to 31.
+ */
+typedef void ls_scale_fn(int32_t *restrict to, const int32_t *restrict from, const int32_t *restrict shift);
 
 /**
  * Take one equation into the right-hand sides: scale the data, then turn it with each of four rows (ls_axis.h).
@@ -147,6 +168,8 @@ typedef struct {
     filter_columns_fn *filter_columns;
     filter_row_fn *filter_row;
     filter_row_bytes_fn *filter_row_bytes;
+    ls_pixels_fn *ls_pixels_gray, *ls_pixels_xrgb;
+    ls_scale_fn *ls_scale;
     ls_forward_fn *ls_forward;
     ls_backward_fn *ls_backward;
     resample_ls_fn *ls_gray, *ls_xrgb;

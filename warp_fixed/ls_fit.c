@@ -23,19 +23,19 @@
 // 11 and 54, where the surface itself reaches 10^5 and 10^8 levels and is cut off; 6, 47 and 215 at N = 17.
 #include "warp_fixed/ls_fit.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <string.h>
 
 #include "warp_fixed/fixed.h"
 
 enum {
-    PIXEL_BITS = 17,
-    ROW_BITS = PIXEL_BITS - LS_STATE_BITS,
+    ROW_BITS = LS_PIXEL_BITS - LS_STATE_BITS,
     MOST_FRACTION_BITS = 4,
     LARGEST_GROWTH = 2600 /* of coefficients over data, along one axis */
 };
 
-static const int32_t largest_data = 255 << PIXEL_BITS;
+static const int32_t largest_data = 255 << LS_PIXEL_BITS;
 
 void ls_weights_init(ls_weights_t *weights)
 {
@@ -79,24 +79,37 @@ static void end_strip(ls_t *ls, const warp_kernels_t *kernels, const ls_axis_t *
         kernels->ls_backward(ls->strip + j * LS_LANES, &axis->solution[j]);
 }
 
-/* Picture rows [y, end) -> rows of coefficients. Lanes are rows times channels. */
+/* A solved strip -> coefficients of picture rows [y, end). Always inlined with a constant number of channels. */
+static inline void store_rows(ls_t *ls, int32_t y, int32_t end, int32_t channels)
+{
+    const ptrdiff_t stride = (ptrdiff_t)ls->x.coefficients * channels;
+    for (int32_t row = y; row < end; row++) {
+        int32_t *to = ls->coefficients + row * stride;
+        const int32_t *from = ls->strip + (row - y) * channels;
+        for (int32_t j = 0; j < ls->x.coefficients; j++)
+            memcpy(to + j * channels, from + j * LS_LANES, (size_t)channels * sizeof *to);
+    }
+}
+
+/* Picture rows [y, end) -> rows of coefficients. Lanes are rows times channels; those to spare repeat the last row. */
 static void fit_rows(ls_t *ls, const warp_kernels_t *kernels, const image_t *picture, int32_t y, int32_t end)
 {
-    const int32_t channels = (int32_t)picture->format;
-    const ptrdiff_t stride = (ptrdiff_t)ls->x.coefficients * channels;
-    int32_t data[LS_LANES] = {0};
+    const bool gray = picture->format == IMAGE_GRAY8;
+    ls_pixels_fn *const take_pixels = gray ? kernels->ls_pixels_gray : kernels->ls_pixels_xrgb;
+    const uint8_t *rows[LS_LANES];
+    for (int32_t i = 0; i < LS_LANES; i++)
+        rows[i] = image_row(picture, y + i < end ? y + i : end - 1);
+    int32_t data[LS_LANES];
     begin_strip(ls, &ls->x);
     for (int32_t x = 0; x < picture->width; x++) {
-        for (int32_t row = y, lane = 0; row < end; row++)
-            for (int32_t channel = 0; channel < channels; channel++)
-                data[lane++] = image_row(picture, row)[x * channels + channel] << PIXEL_BITS;
+        take_pixels(data, rows, x);
         take_equation(ls, kernels, &ls->x.equation[x], data);
     }
     end_strip(ls, kernels, &ls->x);
-    for (int32_t j = 0; j < ls->x.coefficients; j++)
-        for (int32_t row = y, lane = 0; row < end; row++)
-            for (int32_t channel = 0; channel < channels; channel++)
-                ls->coefficients[row * stride + j * channels + channel] = ls->strip[j * LS_LANES + lane++];
+    if (gray)
+        store_rows(ls, y, end, IMAGE_GRAY8);
+    else
+        store_rows(ls, y, end, IMAGE_XRGB8888);
 }
 
 /* Bits that leave every coefficient of both axes below 2^31. There are `count` of the rows. */
@@ -113,26 +126,46 @@ static int32_t fraction_bits_for(const int32_t *rows, ptrdiff_t count)
     return bits;
 }
 
-/* x * 2^shift, rounded and saturated; -32 < shift < 32. */
-static int32_t shifted(int32_t x, int32_t shift)
+/* Fewer lanes than a strip has are worked on in a copy. */
+static void copy_lanes(int32_t *to, const int32_t *from, int32_t lanes)
 {
-    const int64_t value = shift < 0 ? round_shift(x, -shift) : x * ((int64_t)1 << shift);
-    return (int32_t)clamp_i64(value, -INT32_MAX, INT32_MAX);
+    if (lanes == LS_LANES)
+        memcpy(to, from, LS_LANES * sizeof *to);
+    else
+        memcpy(to, from, (size_t)lanes * sizeof *to);
 }
 
 /* How far each lane can be shifted up, or must be down, to be largest_data at most. */
-static void choose_shifts(int32_t shift[LS_LANES], const int32_t *column, ptrdiff_t stride, int32_t size, int32_t lanes)
+static void choose_shifts(int32_t shift[LS_LANES], const warp_kernels_t *kernels, const int32_t largest[LS_LANES])
 {
-    int32_t largest[LS_LANES] = {0};
-    for (int32_t y = 0; y < size; y++)
-        for (int32_t lane = 0; lane < lanes; lane++) {
-            const int32_t c = column[y * stride + lane], magnitude = c < 0 ? -c : c;
+    for (int lane = 0; lane < LS_LANES; lane++)
+        shift[lane] = LS_STATE_BITS;
+    for (bool fits = false; !fits;) {
+        int32_t scaled[LS_LANES];
+        kernels->ls_scale(scaled, largest, shift);
+        fits = true;
+        for (int lane = 0; lane < LS_LANES; lane++) {
+            if (scaled[lane] > largest_data) {
+                shift[lane]--;
+                fits = false;
+            }
+        }
+    }
+}
+
+/* Of each column. */
+static void find_largest(int32_t largest[LS_LANES], const int32_t *column, ptrdiff_t stride, int32_t size,
+                         int32_t lanes)
+{
+    int32_t values[LS_LANES] = {0};
+    for (int lane = 0; lane < LS_LANES; lane++)
+        largest[lane] = 0;
+    for (int32_t y = 0; y < size; y++) {
+        copy_lanes(values, column + y * stride, lanes);
+        for (int lane = 0; lane < LS_LANES; lane++) {
+            const int32_t magnitude = values[lane] < 0 ? -values[lane] : values[lane];
             largest[lane] = magnitude > largest[lane] ? magnitude : largest[lane];
         }
-    for (int32_t lane = 0; lane < lanes; lane++) {
-        shift[lane] = LS_STATE_BITS;
-        while (shifted(largest[lane], shift[lane]) > largest_data)
-            shift[lane]--;
     }
 }
 
@@ -140,19 +173,23 @@ static void choose_shifts(int32_t shift[LS_LANES], const int32_t *column, ptrdif
 static void fit_columns(ls_t *ls, const warp_kernels_t *kernels, int32_t *column, int32_t lanes, ptrdiff_t stride,
                         int32_t fraction_bits)
 {
-    int32_t shift[LS_LANES], data[LS_LANES] = {0};
-    choose_shifts(shift, column, stride, ls->y.knots.size, lanes);
+    int32_t largest[LS_LANES], shift[LS_LANES], back[LS_LANES], values[LS_LANES] = {0}, data[LS_LANES];
+    find_largest(largest, column, stride, ls->y.knots.size, lanes);
+    choose_shifts(shift, kernels, largest);
     begin_strip(ls, &ls->y);
     for (int32_t y = 0; y < ls->y.knots.size; y++) {
-        for (int32_t lane = 0; lane < lanes; lane++)
-            data[lane] = shifted(column[y * stride + lane], shift[lane]);
+        copy_lanes(values, column + y * stride, lanes);
+        kernels->ls_scale(data, values, shift);
         take_equation(ls, kernels, &ls->y.equation[y], data);
     }
     end_strip(ls, kernels, &ls->y);
     const int32_t surplus = ROW_BITS - LS_STATE_BITS - fraction_bits;
-    for (int32_t j = 0; j < ls->y.coefficients; j++)
-        for (int32_t lane = 0; lane < lanes; lane++)
-            column[j * stride + lane] = shifted(ls->strip[j * LS_LANES + lane], -(surplus + shift[lane]));
+    for (int lane = 0; lane < LS_LANES; lane++)
+        back[lane] = -(surplus + shift[lane]);
+    for (int32_t j = 0; j < ls->y.coefficients; j++) {
+        kernels->ls_scale(data, ls->strip + j * LS_LANES, back);
+        copy_lanes(column + j * stride, data, lanes);
+    }
 }
 
 ls_surface_t ls_fit(ls_t *ls, const warp_kernels_t *kernels, const image_t *picture, int32_t k_q16)

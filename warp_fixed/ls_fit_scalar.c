@@ -1,7 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least-squares fit of a strip: rotations forward, substitution back.
+// The least-squares fit of a strip: pixels in, rotations forward, substitution back.
 #include "warp_fixed/fixed.h"
 #include "warp_fixed/kernels_scalar.h"
+
+static inline void take_pixels(int32_t *data, const uint8_t *const *rows, int32_t x, int32_t channels)
+{
+    for (int lane = 0; lane < LS_LANES; lane++)
+        data[lane] = rows[lane / channels][x * channels + lane % channels] << LS_PIXEL_BITS;
+}
+
+void ls_pixels_gray_scalar(int32_t *restrict data, const uint8_t *const *rows, int32_t x)
+{
+    take_pixels(data, rows, x, 1);
+}
+
+void ls_pixels_xrgb_scalar(int32_t *restrict data, const uint8_t *const *rows, int32_t x)
+{
+    take_pixels(data, rows, x, 4);
+}
+
+void ls_scale_scalar(int32_t *restrict to, const int32_t *restrict from, const int32_t *restrict shift)
+{
+    for (int lane = 0; lane < LS_LANES; lane++) {
+        const int64_t x = from[lane];
+        const int64_t scaled = shift[lane] < 0 ? round_shift(x, -shift[lane]) : x * ((int64_t)1 << shift[lane]);
+        to[lane] = (int32_t)clamp_i64(scaled, -INT32_MAX, INT32_MAX);
+    }
+}
 
 void ls_forward_scalar(int32_t *restrict z, const int32_t *restrict data, const ls_equation_t *equation)
 {

@@ -22,4 +22,16 @@ static inline uint8x16x4_t load_4_splats(const uint8_t *bytes)
 #endif
 }
 
+/** @return x * 2^shift, lane by lane, rounded half up and saturated. */
+static inline int32x4_t shift_saturated(int32x4_t x, int32x4_t shift)
+{
+#ifdef __aarch64__
+    return vqrshlq_s32(x, shift);
+#else
+    const int64x2_t low = vrshlq_s64(vmovl_s32(vget_low_s32(x)), vmovl_s32(vget_low_s32(shift)));
+    const int64x2_t high = vrshlq_s64(vmovl_s32(vget_high_s32(x)), vmovl_s32(vget_high_s32(shift)));
+    return vcombine_s32(vqmovn_s64(low), vqmovn_s64(high));
+#endif
+}
+
 #endif

@@ -43,6 +43,45 @@ static void check_axis(const warp_kernels_t *tested, const ls_axis_t *axis, rng_
     }
 }
 
+static void check_pixels(const warp_kernels_t *tested, rng_t *rng)
+{
+    enum { MAX_WIDTH = 9 };
+    static fenced_t memory[LS_LANES];
+    const uint8_t *rows[LS_LANES];
+    const int32_t width = (int32_t)rng_int(rng, 1, MAX_WIDTH), channels = rng_int(rng, 0, 1) ? 4 : 1;
+    for (int i = 0; i < LS_LANES; i++) {
+        if (memory[i].begin == NULL)
+            memory[i] = fenced_new(MAX_WIDTH * 4);
+        uint8_t *row = fenced_place(&memory[i], (size_t)(width * channels), (int)rng_int(rng, 0, 1));
+        check_fill(row, (size_t)(width * channels), (int)rng_int(rng, 0, CHECK_FILLS - 1), rng);
+        rows[i] = row;
+    }
+    for (int32_t x = 0; x < width; x++) {
+        check_case("ls_pixels of %d channels, %d of %d", channels, x, width);
+        outputs_begin(&outputs, LS_LANES * sizeof(int32_t));
+        const int gray = channels == 1;
+        (gray ? warp_kernels_scalar.ls_pixels_gray : warp_kernels_scalar.ls_pixels_xrgb)(outputs.expected, rows, x);
+        (gray ? tested->ls_pixels_gray : tested->ls_pixels_xrgb)(outputs.found, rows, x);
+        outputs_compare(&outputs);
+    }
+}
+
+static void check_scale(const warp_kernels_t *tested, rng_t *rng)
+{
+    int32_t from[LS_LANES], shift[LS_LANES];
+    for (int lane = 0; lane < LS_LANES; lane++) {
+        const int bits = (int)rng_int(rng, 0, 31);
+        const int32_t limit = (int32_t)(((int64_t)1 << bits) - 1);
+        from[lane] = rng_int(rng, 0, 3) ? (int32_t)rng_int(rng, -limit, limit) : limit;
+        shift[lane] = (int32_t)rng_int(rng, -31, 31);
+    }
+    check_case("ls_scale, rng %#llx", (unsigned long long)rng->state);
+    outputs_begin(&outputs, LS_LANES * sizeof(int32_t));
+    warp_kernels_scalar.ls_scale(outputs.expected, from, shift);
+    tested->ls_scale(outputs.found, from, shift);
+    outputs_compare(&outputs);
+}
+
 /* As a grid makes them, in and around an axis of so many pixels. */
 static void fill_points(int32_t *point_q18, int32_t size, rng_t *rng)
 {
@@ -93,6 +132,10 @@ void check_ls(const warp_kernels_t *tested)
             ls_axis_update(&axes[axis], (int32_t)rng_int(&rng, 1, 90), (int32_t)rng_int(&rng, 1 << 15, 5 << 16),
                            weight);
             check_axis(tested, &axes[axis], &rng);
+        }
+        for (int n = 0; n < 20; n++) {
+            check_pixels(tested, &rng);
+            check_scale(tested, &rng);
         }
         check_surface(tested, seed % 2 ? IMAGE_GRAY8 : IMAGE_XRGB8888, &rng);
     }
