@@ -21,10 +21,11 @@ typedef struct {
     int64_t u, v, c;
 } grid_linear_t;
 
-/** Lit pixels [begin, end) of one row, and log2 of the length of its blocks. */
+/** Lit pixels [begin, end) of one row, log2 of the length of its blocks, and how large numbers are. */
 typedef struct {
     int16_t begin, end;
     uint8_t span_log2;
+    bool fits_32; /**< points and their derivatives fit into 32 bits */
 } grid_row_t;
 
 typedef struct {
@@ -34,17 +35,6 @@ typedef struct {
     int32_t x_exponent, y_exponent;
     grid_row_t row[IMAGE_MAX_HEIGHT];
 } grid_t;
-
-/** Points of one block: x(k) = x + k dx + k (k - 1) / 2 ddx, in Q18 picture pixels, modulo 2^32; y likewise. */
-typedef struct {
-    int32_t x, dx, ddx;
-    int32_t y, dy, ddy;
-} grid_quadratic_t;
-
-/** Partial derivatives of the picture point by the panel pixel, Q16, saturated to +-2^31. */
-typedef struct {
-    int64_t x_by_u, x_by_v, y_by_u, y_by_v;
-} grid_jacobian_t;
 
 /**
  * Plan a frame's grid: linear forms, lit pixels and block length of every row.
@@ -57,24 +47,7 @@ typedef struct {
  */
 void grid_from_homography(grid_t *grid, const homography_t *homography);
 
-/**
- * The quadratic of one block.
- *
- * @param begin  First pixel: a multiple of the row's block length, or the row's begin.
- * @param end    One past the last: the next multiple, or the row's end.
- */
-grid_quadratic_t grid_block(const grid_t *grid, int32_t j, int32_t begin, int32_t end);
-
-/** @return One past the last pixel of the block that holds lit pixel i of row j. */
-int32_t grid_block_end(const grid_t *grid, int32_t j, int32_t i);
-
-/** The point of one lit pixel, as every frame uses it. @return false, and nothing written, when it is not lit. */
-bool grid_point(const grid_t *grid, int32_t i, int32_t j, int32_t *x_q18, int32_t *y_q18);
-
 /** @return w at the centre of a pixel, on the scale of grid->w. */
 int64_t grid_depth(const grid_t *grid, int32_t i, int32_t j);
-
-/** @return The derivatives at the centre of a pixel of positive depth. */
-grid_jacobian_t grid_jacobian(const grid_t *grid, int32_t i, int32_t j);
 
 #endif

@@ -8,19 +8,20 @@
 
 #include <stdint.h>
 
-#include "warp_fixed/grid_from_homography.h"
+#include "warp_fixed/grid_row.h"
 #include "warp_fixed/image.h"
 #include "warp_fixed/ls_axis.h"
 #include "warp_fixed/window_weights.h"
 
 /**
- * Write the points of a block: forward differences modulo 2^32.
+ * Write the points of blocks of a row, one after the other: each block's forward differences, modulo 2^32.
  *
- * @param[out] x_q18, y_q18  count points.
- * @param      count         0 to GRID_MAX_SPAN.
+ * @param[out] x_q18, y_q18  end - begin points.
+ * @param      row           grid_row_cursor().
+ * @param      begin, end    Lit pixels: multiples of GRID_MAX_SPAN, or where the row's lit pixels begin and end.
  */
-typedef void grid_points_fn(int32_t *restrict x_q18, int32_t *restrict y_q18, const grid_quadratic_t *block,
-                            int32_t count);
+typedef void grid_points_fn(int32_t *restrict x_q18, int32_t *restrict y_q18, const grid_row_cursor_t *row,
+                            int32_t begin, int32_t end);
 
 enum {
     PATCH_MAX_WIDTH = GRID_MAX_SPAN,

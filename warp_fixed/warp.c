@@ -142,20 +142,17 @@ static void make_block(const frame_t *frame, const tile_t *tile, int32_t rows, i
     }
 }
 
-static void tile_points(tile_t *tile, const frame_t *frame, int32_t rows)
+static void tile_points(tile_t *tile, const warp_kernels_t *kernels, const grid_row_cursor_t *row, int32_t rows)
 {
-    const grid_t *grid = &frame->warp->grid;
     for (int32_t r = 0; r < rows; r++) {
-        const int32_t j = tile->row + r;
-        const grid_row_t *row = &grid->row[j];
-        tile->begin[r] = row->begin > tile->column ? row->begin : tile->column;
-        tile->end[r] = row->end < tile->column + TILE_COLUMNS ? row->end : tile->column + TILE_COLUMNS;
-        for (int32_t begin = tile->begin[r]; begin < tile->end[r];) {
-            const int32_t end = grid_block_end(grid, j, begin), at = r * PATCH_MAX_WIDTH + begin - tile->column;
-            const grid_quadratic_t block = grid_block(grid, j, begin, end);
-            frame->kernels->grid_points(tile->x_q18 + at, tile->y_q18 + at, &block, end - begin);
-            begin = end;
-        }
+        const grid_row_t lit = row[r].row;
+        const int32_t begin = lit.begin > tile->column ? lit.begin : tile->column;
+        const int32_t end = lit.end < tile->column + TILE_COLUMNS ? lit.end : tile->column + TILE_COLUMNS;
+        const int32_t at = r * PATCH_MAX_WIDTH + begin - tile->column;
+        tile->begin[r] = begin;
+        tile->end[r] = end;
+        if (begin < end)
+            kernels->grid_points(tile->x_q18 + at, tile->y_q18 + at, &row[r], begin, end);
     }
 }
 
@@ -163,19 +160,21 @@ static void tile_points(tile_t *tile, const frame_t *frame, int32_t rows)
 static void make_rows(const frame_t *frame, int32_t j, int32_t rows)
 {
     int32_t first = frame->panel->width, last = 0;
+    grid_row_cursor_t cursor[PATCH_MAX_HEIGHT];
     for (int32_t r = 0; r < rows; r++) {
-        const grid_row_t *row = &frame->warp->grid.row[j + r];
-        fill_border(frame->warp, frame->panel, j + r, 0, row->begin);
-        fill_border(frame->warp, frame->panel, j + r, row->end, frame->panel->width);
-        if (row->begin < row->end) {
-            first = row->begin < first ? row->begin : first;
-            last = row->end > last ? row->end : last;
+        cursor[r] = grid_row_cursor(&frame->warp->grid, j + r);
+        const grid_row_t row = cursor[r].row;
+        fill_border(frame->warp, frame->panel, j + r, 0, row.begin);
+        fill_border(frame->warp, frame->panel, j + r, row.end, frame->panel->width);
+        if (row.begin < row.end) {
+            first = row.begin < first ? row.begin : first;
+            last = row.end > last ? row.end : last;
         }
     }
     tile_t tile;
     tile.row = j;
     for (tile.column = first & -TILE_COLUMNS; tile.column < last; tile.column += TILE_COLUMNS) {
-        tile_points(&tile, frame, rows);
+        tile_points(&tile, frame->kernels, cursor, rows);
         for (int32_t column = 0; column < TILE_COLUMNS; column += 1 << frame->columns_log2)
             make_block(frame, &tile, rows, tile.column + column);
     }

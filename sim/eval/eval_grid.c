@@ -8,7 +8,7 @@
 #include "sim/eval/eval_options.h"
 #include "sim/program.h"
 #include "warp_fixed/fixed.h"
-#include "warp_fixed/grid_from_homography.h"
+#include "warp_fixed/grid_row.h"
 
 /* As typed: may lie far outside the panel. */
 typedef struct {

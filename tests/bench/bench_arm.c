@@ -61,11 +61,11 @@ static void run_grid(const warp_kernels_t *kernels, const homography_t *homograp
     bench_begin();
     grid_from_homography(grid, homography);
     for (int32_t j = 0; j < BENCH_HEIGHT; j++) {
-        for (int32_t begin = grid->row[j].begin; begin < grid->row[j].end;) {
-            const int32_t end = grid_block_end(grid, j, begin);
-            const grid_quadratic_t block = grid_block(grid, j, begin, end);
-            kernels->grid_points(&points_x_q18[j * BENCH_WIDTH + begin], &points_y_q18[j * BENCH_WIDTH + begin], &block,
-                                 end - begin);
+        const grid_row_cursor_t row = grid_row_cursor(grid, j);
+        int32_t *x_q18 = &points_x_q18[j * BENCH_WIDTH], *y_q18 = &points_y_q18[j * BENCH_WIDTH];
+        for (int32_t begin = row.row.begin; begin < row.row.end;) {
+            const int32_t end = grid_row_tile_end(row.row, begin);
+            kernels->grid_points(x_q18 + begin, y_q18 + begin, &row, begin, end);
             begin = end;
         }
     }

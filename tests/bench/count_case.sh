@@ -26,7 +26,7 @@ fail() {
 left_out() {
     case $case in
     grid | gauss | kaiser | frame:*) ;;
-    *) echo "grid_from_homography grid_block grid_block_end grid_points_$kernels prefilter_begin" \
+    *) echo "grid_from_homography grid_row_cursor grid_points_$kernels prefilter_begin" \
         "prefilter_pixels prefilter_coefficients ls_axis_update" ;;
     esac
 }

@@ -13,6 +13,7 @@
 #include <stdio.h>
 
 #include "tests/support/oracle.h"
+#include "warp_fixed/grid_row.h"
 
 /* A 4 m x 2.25 m wall seen from 2.5 m, turned about the vertical axis. */
 static void turned_scene(oracle_scene_t *scene, double degrees, int32_t panel_width, int32_t picture_width)
