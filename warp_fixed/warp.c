@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 
+#include "warp_fixed/fill_pixels.h"
 #include "warp_fixed/fixed.h"
 
 enum { TILE_ROWS_LOG2 = 4, TILE_COLUMNS_LOG2 = 6, TILE_COLUMNS = 1 << TILE_COLUMNS_LOG2 };
@@ -33,11 +34,8 @@ typedef struct {
 
 static void fill_border(const warp_t *warp, const image_t *panel, int32_t j, int32_t begin, int32_t end)
 {
-    const int32_t channels = (int32_t)panel->format;
-    uint8_t *out = image_row(panel, j) + begin * channels;
-    for (int32_t i = begin; i < end; i++)
-        for (int32_t channel = 0; channel < channels; channel++)
-            *out++ = warp->border[channel];
+    uint8_t *out = image_row(panel, j) + begin * (int32_t)panel->format;
+    fill_pixels(out, warp->border, panel->format, end - begin);
 }
 
 /* What the resampler reads; smaller levels and coefficients are made when a block asks for them. */
