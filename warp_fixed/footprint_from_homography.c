@@ -37,29 +37,29 @@ static derivatives_t derivatives_of(const grid_t *grid, int32_t j)
     };
 }
 
-/* |slope| in Q16, saturated to 2^31. */
-static uint64_t size_q16(slope_t slope, reciprocal_t over)
+/* Squared slope, Q32, saturated to 2^62. */
+static inline uint64_t square_q32(slope_t slope, reciprocal_t over)
 {
-    const int64_t q16 = round_shift(slope_q24(slope, over), 8);
-    const uint64_t size = (uint64_t)(q16 < 0 ? -q16 : q16), limit = (uint64_t)1 << 31;
-    return size < limit ? size : limit;
+    /* Rounded to Q24 and then to Q16: floor((floor((s + 1) / 2) + 128) / 256). */
+    const int64_t q16 = (slope_q25(slope, over) + 257) >> 9, limit = (int64_t)1 << 31;
+    const bool within = q16 <= limit && q16 >= -limit;
+    return within ? (uint64_t)(q16 * q16) : (uint64_t)1 << 62;
 }
 
 /* |(dx/du, dx/dv)|, Q16. */
-static uint32_t side_q16(const axis_t *axis, const derivatives_t *row, int32_t u_half, int64_t w, reciprocal_t over)
+static inline uint32_t side_q16(const axis_t *axis, int32_t u_half, int64_t w, int64_t w_by_v, reciprocal_t over)
 {
     const int64_t x = axis->by_u * u_half + axis->at_zero;
-    const int128_t numerator = (int128_t)axis->by_v * w - (int128_t)x * row->w_by_v;
-    const uint64_t by_u = size_q16(axis->slope_by_u, over);
-    const uint64_t by_v = size_q16(slope_from_numerator(numerator, axis->exponent), over);
-    return floor_sqrt(by_u * by_u + by_v * by_v); /* of 2^63 at most */
+    const slope_t slope_by_v = slope_from_numerator((int128_t)axis->by_v * w - (int128_t)x * w_by_v, axis->exponent);
+    return floor_sqrt(square_q32(axis->slope_by_u, over) + square_q32(slope_by_v, over)); /* of 2^63 at most */
 }
 
-static footprint_sides_t sides_at(const derivatives_t *row, int32_t u_half)
+static inline footprint_sides_t sides_at(const derivatives_t *row, int32_t u_half)
 {
     const int64_t w = row->w_by_u * u_half + row->w_at_zero;
     const reciprocal_t over = reciprocal_of(w);
-    return (footprint_sides_t){side_q16(&row->x, row, u_half, w, over), side_q16(&row->y, row, u_half, w, over)};
+    return (footprint_sides_t){side_q16(&row->x, u_half, w, row->w_by_v, over),
+                               side_q16(&row->y, u_half, w, row->w_by_v, over)};
 }
 
 static int32_t rows_from(const grid_t *grid, int32_t first_row, int32_t rows)

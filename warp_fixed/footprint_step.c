@@ -150,6 +150,10 @@ static int32_t edge_next(edge_t *edge, int32_t length)
 static short_t short_from_wide(uint128_t wide)
 {
     const uint64_t high = (uint64_t)(wide >> 64), low = (uint64_t)wide;
+    if (high >> 31 != 0) { /* the common case: it has all bits of the mantissa */
+        const int zeros = __builtin_clzll(high);
+        return (short_t){(uint32_t)(high << zeros >> 32), 96 - zeros};
+    }
     if (wide == 0)
         return (short_t){0, least_exponent};
     const int zeros = high != 0 ? __builtin_clzll(high) : 64 + __builtin_clzll(low);
@@ -157,7 +161,7 @@ static short_t short_from_wide(uint128_t wide)
 }
 
 /* Take the pair at pixel i of line j for *largest when it is larger, by more than 2^-28 of it. */
-static void consider(pair_t *largest, const lines_t *lines, short_t square, int32_t i, int32_t j)
+static inline void consider(pair_t *largest, const lines_t *lines, short_t square, int32_t i, int32_t j)
 {
     const int64_t w = form_at(&lines->w, i, j);
     const short_t once = short_from_wide((uint128_t)w * (uint64_t)(w + lines->w.along));

@@ -2,7 +2,6 @@
 // Points of a row of the grid: a block's middle in 64-bit integers, the rest in lanes: both coordinates, four points.
 //
 // What grid_row.c says of a block, line by line, where all of it fits into 32 bits; see there for names and why.
-#include "warp_fixed/grid_quotient.h"
 #include "warp_fixed/kernels_neon.h"
 #include "warp_fixed/kernels_scalar.h"
 #include "warp_fixed/neon.h"
@@ -27,12 +26,6 @@ static inline int64_t upper_64(int64_t a, int64_t b)
     return (int64_t)((int128_t)a * b >> 64);
 }
 
-/* Twice the slope, Q24. */
-static inline int64_t slope_q25(const grid_row_axis_t *axis, reciprocal_t over)
-{
-    return slope_once(axis->slope, over.reciprocal) * over.reciprocal >> (axis->slope_shift - 1 - 2 * over.zeros);
-}
-
 static inline quadratics_t block_quadratics(const grid_row_cursor_t *row, int32_t begin, int32_t end, int span_log2)
 {
     const int32_t u_half = begin + end; /* the block's middle */
@@ -40,7 +33,7 @@ static inline quadratics_t block_quadratics(const grid_row_cursor_t *row, int32_
     const int64_t lifted = over.reciprocal << (over.zeros - row->lift);
     const int64_t x = row->x.by_u * u_half + row->x.at_zero, y = row->y.by_u * u_half + row->y.at_zero;
     const int32x2_t middle = half_of(upper_64(x, lifted), upper_64(y, lifted));
-    const int32x2_t slope = half_of(slope_q25(&row->x, over), slope_q25(&row->y, over));
+    const int32x2_t slope = half_of(slope_q25_in_64_bits(row->x.slope, over), slope_q25_in_64_bits(row->y.slope, over));
     const int32x2_t turn = vrshrn_n_s64(vdupq_n_s64(upper_64(row->turn, lifted)), 1);
     const int32x2_t turn_m = vshl_s32(turn, vdup_n_s32(span_log2 - 1));
     const int32x2_t square = vshrn_n_s64(vmull_s32(turn_m, turn_m), 32);
@@ -110,7 +103,7 @@ static inline void block_points(int32_t *x_q18, int32_t *y_q18, quadratics_t blo
                                    vget_lane_u32(bend, 0), vdupq_lane_u32(bend_16, 0));
     four_points_t y = first_points(vdupq_lane_u32(first, 1), vget_lane_u32(step, 1), vdupq_lane_u32(step_4, 1),
                                    vget_lane_u32(bend, 1), vdupq_lane_u32(bend_16, 1));
-    for (int32_t n = count >> 4; n > 0; n--) {
+    for (uint32_t n = (uint32_t)count >> 4; n > 0; n--) {
         store_sixteen(x_q18, &x);
         store_sixteen(y_q18, &y);
         x_q18 += 16;

@@ -64,20 +64,23 @@ static inline slope_t slope_from_numerator(int128_t wide, int32_t exponent)
     return (slope_t){(int64_t)(wide >> cut), at_31_bits - cut};
 }
 
-/** @return numerator R / 2^32: once is not enough, but 64 bits hold its product with R again. */
-static inline int64_t slope_once(int64_t numerator, int64_t reciprocal)
+/**
+ * @return Twice the slope there, rounded down, 2^53 at most: (it + 1) >> 1 is the slope to nearest. For shift - 2 z
+ * from 1 to 64, and slopes that then fit: 64 bits hold all of it.
+ */
+static inline int64_t slope_q25_in_64_bits(slope_t slope, reciprocal_t over)
 {
-    return numerator * reciprocal >> 32;
+    const int64_t once = slope.numerator * over.reciprocal >> 32;
+    return once * over.reciprocal >> (slope.shift - 1 - 2 * over.zeros);
 }
 
-/** @return The slope there, saturated to +-2^52. */
-static inline int64_t slope_q24(slope_t slope, reciprocal_t over)
+/** @return The same for any shift; what it rounds to is saturated to +-2^52. */
+static inline int64_t slope_q25(slope_t slope, reciprocal_t over)
 {
-    const int64_t once = slope_once(slope.numerator, over.reciprocal);
     const int shift = slope.shift - 2 * over.zeros;
-    if (shift >= 11 && shift <= 64) /* the common case: the result is at most 2^52 */
-        return ((once * over.reciprocal >> (shift - 1)) + 1) >> 1;
-    return quotient(once, over.reciprocal, shift);
+    if (shift >= 11 && shift <= 64) /* the common case */
+        return slope_q25_in_64_bits(slope, over);
+    return 2 * quotient(slope.numerator * over.reciprocal >> 32, over.reciprocal, shift);
 }
 
 #endif

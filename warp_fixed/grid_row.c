@@ -13,7 +13,6 @@
 #include "warp_fixed/grid_row.h"
 
 #include "warp_fixed/fixed.h"
-#include "warp_fixed/grid_quotient.h"
 
 enum { MAX_SPAN_LOG2 = 6, MIN_X_PX = -2048, MAX_X_PX = 6144, TURN_BITS = 32 };
 
@@ -34,12 +33,11 @@ static int64_t size_of(int64_t x)
 static grid_row_axis_t row_axis(const grid_linear_t *form, int32_t exponent, const grid_linear_t *w, int32_t v_half)
 {
     const int64_t at_zero = form->v * v_half + form->c, w_at_zero = w->v * v_half + w->c;
-    const slope_t slope = slope_from_numerator((int128_t)form->u * w_at_zero - (int128_t)at_zero * w->u, exponent);
+    const int128_t numerator = (int128_t)form->u * w_at_zero - (int128_t)at_zero * w->u;
     return (grid_row_axis_t){.by_u = form->u,
                              .at_zero = at_zero,
-                             .slope = slope.numerator,
-                             .point_shift = RECIPROCAL_SHIFT - GRID_FRACTION_BITS - exponent,
-                             .slope_shift = slope.shift};
+                             .slope = slope_from_numerator(numerator, exponent),
+                             .point_shift = RECIPROCAL_SHIFT - GRID_FRACTION_BITS - exponent};
 }
 
 static int64_t value_at(const grid_row_axis_t *axis, int32_t u_half)
@@ -59,14 +57,19 @@ static int64_t point_q18(const grid_row_axis_t *axis, int32_t u_half, reciprocal
     return clamp_i64(point, MIN_X_PX * one, MAX_X_PX * one);
 }
 
+static int64_t slope_q24(const grid_row_axis_t *axis, reciprocal_t over)
+{
+    return (slope_q25(axis->slope, over) + 1) >> 1;
+}
+
 static local_t local_at(const grid_row_cursor_t *row, int32_t u_half)
 {
     const reciprocal_t over = reciprocal_of(depth_at(row, u_half));
     return (local_t){
         .x_q18 = point_q18(&row->x, u_half, over),
         .y_q18 = point_q18(&row->y, u_half, over),
-        .x_slope_q24 = slope_q24((slope_t){row->x.slope, row->x.slope_shift}, over),
-        .y_slope_q24 = slope_q24((slope_t){row->y.slope, row->y.slope_shift}, over),
+        .x_slope_q24 = slope_q24(&row->x, over),
+        .y_slope_q24 = slope_q24(&row->y, over),
         .turn_q32 = quotient(row->turn, over.reciprocal, row->turn_shift - over.zeros),
     };
 }
@@ -133,14 +136,12 @@ static int headroom(int64_t first, int64_t last)
     return __builtin_clzll(bits | 1) - 2;
 }
 
-/* Slopes that are 0 all along the row are made so; others are left alone. @return Are their shifts within 64 bits? */
-static bool settle_slope(grid_row_axis_t *axis, int least_zeros, int most_zeros)
+/* Make slopes that are 0 all along the row so, and leave others alone. @return Are their shifts within 64 bits? */
+static bool settle_slope(slope_t *slope, int least_zeros, int most_zeros)
 {
-    if (axis->slope == 0 || axis->slope_shift - 2 * most_zeros > 64) {
-        axis->slope = 0;
-        axis->slope_shift = 64 + 2 * least_zeros;
-    }
-    return axis->slope_shift - 2 * most_zeros >= 1 && axis->slope_shift - 2 * least_zeros <= 64;
+    if (slope->numerator == 0 || slope->shift - 2 * most_zeros > 64)
+        *slope = (slope_t){0, 64 + 2 * least_zeros};
+    return slope->shift - 2 * most_zeros >= 1 && slope->shift - 2 * least_zeros <= 64;
 }
 
 static void lift_axis(grid_row_axis_t *axis, int by)
@@ -170,8 +171,8 @@ static bool lift_row(grid_row_cursor_t *row)
     lift = least_of(lift, headroom(row->x.at_zero, value_at(&row->x, last)) - x_by);
     lift = least_of(lift, headroom(row->y.at_zero, value_at(&row->y, last)) - y_by);
     lift = least_of(lift, headroom(row->turn, row->turn) - turn_by);
-    const bool x_settled = settle_slope(&row->x, least_zeros, most_zeros);
-    const bool y_settled = settle_slope(&row->y, least_zeros, most_zeros);
+    const bool x_settled = settle_slope(&row->x.slope, least_zeros, most_zeros);
+    const bool y_settled = settle_slope(&row->y.slope, least_zeros, most_zeros);
     if (!x_settled || !y_settled || x_by + lift < 0 || y_by + lift < 0 || turn_by + lift < 0 || most_zeros - lift > 30)
         return false;
     lift_axis(&row->x, x_by + lift);

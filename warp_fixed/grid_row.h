@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "warp_fixed/grid_from_homography.h"
+#include "warp_fixed/grid_quotient.h"
 
 /**
  * One coordinate along a row, U = 2 i + 1 being the centre of a pixel in half pixels.
@@ -19,8 +20,8 @@
  */
 typedef struct {
     int64_t by_u, at_zero;
-    int64_t slope; /**< of (dx/dU) w - x (dw/dU), which is the same all along the row; 2^31 at most */
-    int32_t point_shift, slope_shift;
+    slope_t slope; /**< the same at every pixel of the row */
+    int32_t point_shift;
 } grid_row_axis_t;
 
 /** What the pixels of one row share. */
