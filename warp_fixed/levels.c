@@ -27,17 +27,32 @@ void levels_begin(levels_t *levels)
             levels->made[level_x][level_y] = false;
 }
 
-/* Mean of the box of texels that is pixel (x, y) of the level, for one channel: at most 4096 * 255 < 2^20. */
-static uint8_t box_mean(const image_t *picture, int32_t x, int32_t y, int log2_x, int log2_y, int channel)
+/* Add texels [begin, end) of a row, mirrored beyond its end, to each channel's sum. */
+static void add_texels(uint32_t sum[4], const uint8_t *row, const image_t *picture, int32_t begin, int32_t end)
 {
-    uint32_t sum = 0;
-    for (int32_t v = y << log2_y; v < (y + 1) << log2_y; v++) {
-        const uint8_t *row = image_row(picture, mirror_index(v, picture->height)) + channel;
-        for (int32_t u = x << log2_x; u < (x + 1) << log2_x; u++)
-            sum += row[mirror_index(u, picture->width) * (int32_t)picture->format];
+    const int32_t channels = (int32_t)picture->format, within = end < picture->width ? end : picture->width;
+    if (channels == 1) {
+        for (int32_t u = begin; u < within; u++)
+            sum[0] += row[u];
+    } else {
+        for (int32_t u = begin; u < within; u++)
+            for (int c = 0; c < 4; c++)
+                sum[c] += row[4 * u + c];
     }
+    for (int32_t u = within; u < end; u++)
+        for (int32_t c = 0; c < channels; c++)
+            sum[c] += row[mirror_index(u, picture->width) * channels + c];
+}
+
+/* Mean of the box of texels that is pixel (x, y) of the level: sums are at most 4096 * 255 < 2^20. */
+static void box_mean(uint8_t *mean, const image_t *picture, int32_t x, int32_t y, int log2_x, int log2_y)
+{
+    uint32_t sum[4] = {0, 0, 0, 0};
+    for (int32_t v = y << log2_y; v < (y + 1) << log2_y; v++)
+        add_texels(sum, image_row(picture, mirror_index(v, picture->height)), picture, x << log2_x, (x + 1) << log2_x);
     const int log2 = log2_x + log2_y;
-    return (uint8_t)((sum + (1u << log2 >> 1)) >> log2);
+    for (int c = 0; c < (int)picture->format; c++)
+        mean[c] = (uint8_t)((sum[c] + (1u << log2 >> 1)) >> log2);
 }
 
 image_t levels_picture(levels_t *levels, const image_t *picture, int level_x, int level_y)
@@ -52,8 +67,7 @@ image_t levels_picture(levels_t *levels, const image_t *picture, int level_x, in
     for (int32_t y = 0; y < level.height; y++) {
         uint8_t *row = image_row(&level, y);
         for (int32_t x = 0; x < level.width; x++)
-            for (int channel = 0; channel < (int)level.format; channel++)
-                *row++ = box_mean(picture, x, y, SHIFT * level_x, SHIFT * level_y, channel);
+            box_mean(row + x * (int32_t)level.format, picture, x, y, SHIFT * level_x, SHIFT * level_y);
     }
     levels->made[level_x][level_y] = true;
     return level;
