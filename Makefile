@@ -62,9 +62,10 @@ $(BUILD)/obj/%.c.o: %.c
 	$(if $(V),,@echo "  CC    $<")
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
 
-# NEON's lanes wrap; SIMDe makes them of signed integers in C. Its loops end gcc 12 with an internal error ("in
-# compute_live_loop_exits") unless partial redundancies stay.
-$(BUILD)/obj/warp_fixed/%_neon.c.o: CFLAGS += -fwrapv $(if $(filter gcc,$(CC)),-fno-tree-pre)
+# NEON's lanes wrap; SIMDe makes them of signed integers in C.
+# gcc 12: SIMDe's loops end it with an internal error ("in compute_live_loop_exits") unless partial redundancies stay,
+# and on AArch64 its first scheduler mixes pixels that follow one another until their vectors no longer fit registers.
+$(BUILD)/obj/warp_fixed/%_neon.c.o: CFLAGS += -fwrapv $(if $(findstring gcc,$(CC)),-fno-tree-pre -fno-schedule-insns -fno-var-tracking)
 
 $(BUILD)/obj/sim/run/page.S.o: sim/run/page.html sim/run/page.js
 $(BUILD)/obj/sim/files/html_style.S.o: sim/files/html_style.css

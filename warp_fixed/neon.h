@@ -12,6 +12,16 @@
 #include <simde/arm/neon.h>
 #endif
 
+/**
+ * For what is made anew for each constant that it is called with. Builds that are not optimised, or sanitized, do
+ * without: compiling SIMDe's functions so many times would take them minutes.
+ */
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
+#define NEON_INLINE static inline __attribute__((always_inline))
+#else
+#define NEON_INLINE static inline
+#endif
+
 /** @return Four bytes, each of them in all lanes of one vector. */
 static inline uint8x16x4_t load_4_splats(const uint8_t *bytes)
 {

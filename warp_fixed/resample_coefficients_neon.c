@@ -11,8 +11,6 @@
 #include "warp_fixed/resample_long_neon.h"
 #include "warp_fixed/window_patch_neon.h"
 
-#define INLINE static inline __attribute__((always_inline))
-
 enum { LANES = 8, SHIFT = COEFFICIENT_SUM_LOG2 + COEFFICIENT_BITS };
 
 /* There are loops for 2, 4, 5, 6 and 8 taps; other windows are taken for longer ones: weights beyond theirs are 0. */
@@ -26,7 +24,7 @@ typedef struct {
     int32x4_t low, high;
 } sums_t;
 
-INLINE int16x8_t eight_coefficients(const uint8_t *at)
+NEON_INLINE int16x8_t eight_coefficients(const uint8_t *at)
 {
     return vreinterpretq_s16_u8(vld1q_u8(at));
 }
@@ -37,7 +35,7 @@ INLINE int16x8_t eight_coefficients(const uint8_t *at)
               vmlal_lane_s16((sums).high, vget_high_s16(values), weights, lane)})
 
 /* Eight columns of ny rows, weighed. Halves that nobody reads cost nothing. */
-INLINE int16x8_t weigh_columns(const uint8_t *const *rows, uint32_t at, int16x8_t weights, int32_t ny)
+NEON_INLINE int16x8_t weigh_columns(const uint8_t *const *rows, uint32_t at, int16x8_t weights, int32_t ny)
 {
     const int16x4_t upper = vget_low_s16(weights), lower = vget_high_s16(weights);
     const int16x8_t top = eight_coefficients(rows[0] + at);
@@ -59,8 +57,8 @@ INLINE int16x8_t weigh_columns(const uint8_t *const *rows, uint32_t at, int16x8_
 }
 
 /* Second-pass sums of the four channels of a pixel. A vector of columns has two pixels. */
-INLINE int32x4_t weigh_xrgb(const uint8_t *const *rows, uint32_t at, int16x8_t first, int32_t ny, int16x8_t second,
-                            int32_t nx)
+NEON_INLINE int32x4_t weigh_xrgb(const uint8_t *const *rows, uint32_t at, int16x8_t first, int32_t ny, int16x8_t second,
+                                 int32_t nx)
 {
     const int16x4_t left = vget_low_s16(second), right = vget_high_s16(second);
     int16x8_t v[WINDOW_SHORT_TAPS / 2];
@@ -84,59 +82,69 @@ INLINE int32x4_t weigh_xrgb(const uint8_t *const *rows, uint32_t at, int16x8_t f
 }
 
 /* Second-pass sums of a pixel, to be added up. */
-INLINE int32x4_t weigh_gray(const uint8_t *const *rows, uint32_t at, int16x8_t first, int32_t ny, int16x8_t second,
-                            int32_t nx)
+NEON_INLINE int32x4_t weigh_gray(const uint8_t *const *rows, uint32_t at, int16x8_t first, int32_t ny, int16x8_t second,
+                                 int32_t nx)
 {
     const int16x8_t v = weigh_columns(rows, at, first, ny);
     const int32x4_t sums = vmull_s16(vget_low_s16(v), vget_low_s16(second));
     return nx > 4 ? vmlal_high_s16(sums, v, second) : sums;
 }
 
+/* Row 0 of the weights of both passes. */
+typedef struct {
+    const int16_t *first;
+    const uint8_t *second;
+} patch_tables_t;
+
+/* Second-pass sums of window i of a step. */
+NEON_INLINE int32x4_t weigh_pixel(const uint8_t *const *rows, const patch_tables_t *tables, const window_step_t *step,
+                                  int i, int32_t nx, int32_t ny, int32_t channels)
+{
+    const int16x8_t first = vld1q_s16(tables->first + step->row_y[i]);
+    const int16x8_t second = vreinterpretq_s16_u8(vld1q_u8(tables->second + step->row_x[i]));
+    return channels == 1 ? weigh_gray(rows, step->texel[i], first, ny, second, nx)
+                         : weigh_xrgb(rows, step->texel[i], first, ny, second, nx);
+}
+
 /* As pixel_from_centred(): the middle grey goes in before the shift, which is made in two (the second saturates). */
-INLINE uint8x8_t pixels_from_sums(int32x4_t a, int32x4_t b)
+NEON_INLINE uint8x8_t pixels_from_sums(int32x4_t a, int32x4_t b)
 {
     const int32x4_t start = vdupq_n_s32((COEFFICIENT_MIDDLE << SHIFT) + (1 << (SHIFT - 1)));
     return vqshrun_n_s16(vcombine_s16(vaddhn_s32(a, start), vaddhn_s32(b, start)), SHIFT - 16);
 }
 
-INLINE void store_pixels(uint8_t *out, const int32x4_t sums[PATCH_STEP], int32_t channels)
+NEON_INLINE void weigh_patch(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t nx,
+                             int32_t ny, int32_t channels)
 {
-    if (channels == 1) {
-        const int32x4_t four = vpaddq_s32(vpaddq_s32(sums[0], sums[1]), vpaddq_s32(sums[2], sums[3]));
-        const uint8x8_t pixels = pixels_from_sums(four, four);
-        memcpy(out, &pixels, PATCH_STEP);
-    } else {
-        vst1q_u8(out, vcombine_u8(pixels_from_sums(sums[0], sums[1]), pixels_from_sums(sums[2], sums[3])));
-    }
-}
-
-INLINE void weigh_patch(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t nx,
-                        int32_t ny, int32_t channels)
-{
-    const window_source_t from = *source; /* what is written might alias it */
-    const int16_t *first = window->y.first, *second = window->x.second;
+    const window_source_t from = *source; /* what is written might alias these */
+    const int32_t width = patch->width, height = patch->height;
+    const patch_tables_t tables = {window->y.first, (const uint8_t *)window->x.second};
     const uint8_t *rows[WINDOW_SHORT_TAPS];
     for (int t = 0; t < ny; t++)
         rows[t] = from.data + (ptrdiff_t)t * from.stride;
-    for (int32_t r = 0; r < patch->height; r++) {
+    for (int32_t r = 0; r < height; r++) {
         const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
         uint8_t *out = patch->out + r * patch->stride;
-        for (int32_t k = 0; k < patch->width; k += PATCH_STEP) {
-            const int32_t at = step_begin(k, patch->width);
-            const window_step_t step = window_step(&from, x_q18 + at, y_q18 + at, channels == 1 ? 1 : 3);
-            int32x4_t sums[PATCH_STEP];
-            for (int i = 0; i < PATCH_STEP; i++) {
-                const int16x8_t down = vld1q_s16(first + step.row_y[i]), across = vld1q_s16(second + step.row_x[i]);
-                sums[i] = channels == 1 ? weigh_gray(rows, step.texel[i], down, ny, across, nx)
-                                        : weigh_xrgb(rows, step.texel[i], down, ny, across, nx);
+        for (const int32_t *end = x_q18 + width; x_q18 < end; x_q18 += PATCH_STEP, y_q18 += PATCH_STEP) {
+            const window_step_t step = window_step(&from, x_q18, y_q18, channels == 1 ? 1 : 3);
+            const int32x4_t a = weigh_pixel(rows, &tables, &step, 0, nx, ny, channels);
+            const int32x4_t b = weigh_pixel(rows, &tables, &step, 1, nx, ny, channels);
+            const int32x4_t c = weigh_pixel(rows, &tables, &step, 2, nx, ny, channels);
+            const int32x4_t d = weigh_pixel(rows, &tables, &step, 3, nx, ny, channels);
+            if (channels == 1) {
+                const int32x4_t four = vpaddq_s32(vpaddq_s32(a, b), vpaddq_s32(c, d));
+                const uint8x8_t pixels = pixels_from_sums(four, four);
+                memcpy(out, &pixels, PATCH_STEP);
+            } else {
+                vst1q_u8(out, vcombine_u8(pixels_from_sums(a, b), pixels_from_sums(c, d)));
             }
-            store_pixels(out + (ptrdiff_t)at * channels, sums, channels);
+            out += PATCH_STEP * channels;
         }
     }
 }
 
-INLINE void weigh_rows(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t nx,
-                       int32_t channels)
+NEON_INLINE void weigh_rows(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t nx,
+                            int32_t channels)
 {
     switch (taps_of_loop(window->y.taps)) {
     case 2:
@@ -215,8 +223,15 @@ void resample_coefficients_xrgb_neon(const patch_t *patch, const window_t *windo
         return;
     }
     const texels_t texels = texels_of(&window->coefficients);
-    const int32_t nx = window->x.taps, taps[2] = {(taps_of_loop(nx) + 1) & -2, taps_of_loop(window->y.taps)};
-    weigh_anywhere(patch, window, &texels, taps, 4, by_columns_xrgb[nx]);
+    const int32_t nx = window->x.taps;
+    const patch_loop_t loop = {
+        .weigh = by_columns_xrgb[nx],
+        .taps_x = (taps_of_loop(nx) + 1) & -2,
+        .taps_y = taps_of_loop(window->y.taps),
+        .pixel_bytes = 4,
+        .step = PATCH_STEP,
+    };
+    weigh_anywhere(patch, window, &texels, &loop);
 }
 
 void resample_coefficients_gray_neon(const patch_t *patch, const window_t *window)
@@ -226,6 +241,12 @@ void resample_coefficients_gray_neon(const patch_t *patch, const window_t *windo
         return;
     }
     const texels_t texels = texels_of(&window->coefficients);
-    const int32_t taps[2] = {LANES, taps_of_loop(window->y.taps)};
-    weigh_anywhere(patch, window, &texels, taps, 1, window->x.taps <= 4 ? four_gray : eight_gray);
+    const patch_loop_t loop = {
+        .weigh = window->x.taps <= 4 ? four_gray : eight_gray,
+        .taps_x = LANES,
+        .taps_y = taps_of_loop(window->y.taps),
+        .pixel_bytes = 1,
+        .step = PATCH_STEP,
+    };
+    weigh_anywhere(patch, window, &texels, &loop);
 }

@@ -9,8 +9,6 @@
 #include "warp_fixed/neon.h"
 #include "warp_fixed/window_patch_neon.h"
 
-#define INLINE static inline __attribute__((always_inline))
-
 /* What the pixels of a picture share. */
 typedef struct {
     const uint8_t *data;
@@ -19,7 +17,7 @@ typedef struct {
 } pixels_t;
 
 /* Offsets of four pixels. */
-INLINE uint32x4_t offsets(const pixels_t *from, const int32_t *x_q18, const int32_t *y_q18, bool inside)
+NEON_INLINE uint32x4_t offsets(const pixels_t *from, const int32_t *x_q18, const int32_t *y_q18, bool inside)
 {
     int32x4_t x = vshrq_n_s32(vld1q_s32(x_q18), GRID_FRACTION_BITS);
     int32x4_t y = vshrq_n_s32(vld1q_s32(y_q18), GRID_FRACTION_BITS);
@@ -30,28 +28,32 @@ INLINE uint32x4_t offsets(const pixels_t *from, const int32_t *x_q18, const int3
     return vreinterpretq_u32_s32(vmlaq_n_s32(vshlq_s32(x, vdupq_n_s32(from->pixel_log2)), y, from->stride));
 }
 
-INLINE void copy_four(uint8_t *out, const pixels_t *from, uint32x4_t offset)
+NEON_INLINE void copy_four(uint8_t *out, const pixels_t *from, uint32x4_t offset)
 {
-    const uint32_t at[PATCH_STEP] = {vgetq_lane_u32(offset, 0), vgetq_lane_u32(offset, 1), vgetq_lane_u32(offset, 2),
-                                     vgetq_lane_u32(offset, 3)};
+    uint32_t at[PATCH_STEP];
+    vst1q_u32(at, offset);
     for (int i = 0; i < PATCH_STEP; i++)
         memcpy(out + (i << from->pixel_log2), from->data + at[i], (size_t)1 << from->pixel_log2);
 }
 
-/* Rows of at least one step; the last one may overlap the one before. */
-INLINE void copy_patch(const patch_t *patch, const pixels_t *from, bool inside)
+/* Rows of at least one step; where need be, the last one begins within the one before. */
+NEON_INLINE void copy_patch(const patch_t *patch, const pixels_t *from, bool inside)
 {
-    for (int32_t r = 0; r < patch->height; r++) {
+    const int32_t width = patch->width, height = patch->height, whole = width & -PATCH_STEP;
+    for (int32_t r = 0; r < height; r++) {
         const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
         uint8_t *out = patch->out + r * patch->stride;
-        for (int32_t k = 0; k < patch->width; k += PATCH_STEP) {
-            const int32_t at = step_begin(k, patch->width);
-            copy_four(out + (at << from->pixel_log2), from, offsets(from, x_q18 + at, y_q18 + at, inside));
+        for (const int32_t *end = x_q18 + whole; x_q18 < end; x_q18 += PATCH_STEP, y_q18 += PATCH_STEP) {
+            copy_four(out, from, offsets(from, x_q18, y_q18, inside));
+            out += PATCH_STEP << from->pixel_log2;
         }
+        const int32_t back = PATCH_STEP - (width - whole);
+        if (back < PATCH_STEP)
+            copy_four(out - (back << from->pixel_log2), from, offsets(from, x_q18 - back, y_q18 - back, inside));
     }
 }
 
-INLINE void nearest(const patch_t *patch, const image_t *picture, int pixel_log2)
+NEON_INLINE void nearest(const patch_t *patch, const image_t *picture, int pixel_log2)
 {
     const pixels_t from = {picture->data, picture->width - 1, picture->height - 1, picture->stride, pixel_log2};
     if (points_inside(patch, picture->width, picture->height))

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // A window of texels around each point: short windows (at most WINDOW_SHORT_TAPS along both axes) with 8-bit weights.
 //
-// The first pass has 16-bit sums. Without negative weights these are unsigned. With them, texels less 128, as signed
-// bytes, give sums less 128 * FIRST_SUM, which fit signed 16 bits (fixed.h). A weight may be 128, which is no signed
-// byte; its negative is, so these sums, and those of the second pass, are negated. What is always inlined has constant
-// bounds there, and no branches.
+// The first pass has 16-bit sums. Without negative weights these are unsigned. With them, texels less 128 (copies:
+// window_patch_neon.h), as signed bytes, give sums less 128 * FIRST_SUM, which fit signed 16 bits (fixed.h). A weight
+// may be 128, which is no signed byte; its negative is, so these sums, and those of the second pass, are negated. What
+// is always inlined has constant bounds there, and no branches.
 #include <stdbool.h>
 #include <string.h>
 
 #include "warp_fixed/fixed.h"
 #include "warp_fixed/kernels_neon.h"
 #include "warp_fixed/kernels_scalar.h"
+#include "warp_fixed/resample_linear_neon.h"
 #include "warp_fixed/resample_long_neon.h"
 #include "warp_fixed/window_patch_neon.h"
-
-#define INLINE static inline __attribute__((always_inline))
 
 enum {
     MIN_TAPS = 2, /* shorter windows are taken for such: weights beyond a window's are 0 */
@@ -27,7 +26,7 @@ typedef struct {
     uint8x16_t row[WINDOW_SHORT_TAPS];
 } splats_t;
 
-INLINE splats_t load_splats(const uint8_t *first, int32_t ny)
+NEON_INLINE splats_t load_splats(const uint8_t *first, int32_t ny)
 {
     splats_t splats;
     const uint8x16x4_t above = load_4_splats(first);
@@ -44,29 +43,16 @@ INLINE splats_t load_splats(const uint8_t *first, int32_t ny)
 }
 
 /* texels * weight: int16_t, or uint16_t where no weight is negative. */
-INLINE int16x8_t products(uint8x8_t texels, uint8x8_t weight, bool negative)
+NEON_INLINE int16x8_t products(uint8x8_t texels, uint8x8_t weight, bool negative)
 {
     return negative ? vmull_s8(vreinterpret_s8_u8(texels), vreinterpret_s8_u8(weight))
                     : vreinterpretq_s16_u16(vmull_u8(texels, weight));
 }
 
-INLINE int16x8_t add_products(int16x8_t sums, uint8x8_t texels, uint8x8_t weight, bool negative)
+NEON_INLINE int16x8_t add_products(int16x8_t sums, uint8x8_t texels, uint8x8_t weight, bool negative)
 {
     return negative ? vmlal_s8(sums, vreinterpret_s8_u8(texels), vreinterpret_s8_u8(weight))
                     : vreinterpretq_s16_u16(vmlal_u8(vreinterpretq_u16_s16(sums), texels, weight));
-}
-
-/* Texels as they are weighed. */
-INLINE uint8x8_t eight_bytes(const uint8_t *texels, bool negative)
-{
-    const uint8x8_t bytes = vld1_u8(texels);
-    return negative ? veor_u8(bytes, vdup_n_u8(128)) : bytes;
-}
-
-INLINE uint8x16_t sixteen_bytes(const uint8_t *texels, bool negative)
-{
-    const uint8x16_t bytes = vld1q_u8(texels);
-    return negative ? veorq_u8(bytes, vdupq_n_u8(128)) : bytes;
 }
 
 /* sums + weights[lane] * values of one pixel's four channels. */
@@ -76,7 +62,7 @@ INLINE uint8x16_t sixteen_bytes(const uint8_t *texels, bool negative)
                                                        vreinterpret_u16_s16(weights), lane)))
 
 /* weights[0] * values. */
-INLINE int32x4_t first_pixel(int16x4_t values, int16x4_t weights, bool negative)
+NEON_INLINE int32x4_t first_pixel(int16x4_t values, int16x4_t weights, bool negative)
 {
     return negative
                ? vmull_lane_s16(values, weights, 0)
@@ -84,13 +70,13 @@ INLINE int32x4_t first_pixel(int16x4_t values, int16x4_t weights, bool negative)
 }
 
 /* The first row of nx pixels, as sums of pairs of columns. */
-INLINE void first_row_xrgb(int16x8_t *v, const uint8_t *texels, uint8x16_t weight, int32_t nx, bool negative)
+NEON_INLINE void first_row_xrgb(int16x8_t *v, const uint8_t *texels, uint8x16_t weight, int32_t nx, bool negative)
 {
     for (int32_t pair = 0; 2 * pair < nx; pair += 2) {
         if (nx <= 2 * pair + 2) {
-            v[pair] = products(eight_bytes(texels + 8 * pair, negative), vget_low_u8(weight), negative);
+            v[pair] = products(vld1_u8(texels + 8 * pair), vget_low_u8(weight), negative);
         } else {
-            const uint8x16_t four = sixteen_bytes(texels + 8 * pair, negative);
+            const uint8x16_t four = vld1q_u8(texels + 8 * pair);
             v[pair] = products(vget_low_u8(four), vget_low_u8(weight), negative);
             v[pair + 1] = products(vget_high_u8(four), vget_high_u8(weight), negative);
         }
@@ -98,13 +84,13 @@ INLINE void first_row_xrgb(int16x8_t *v, const uint8_t *texels, uint8x16_t weigh
 }
 
 /* Another row. */
-INLINE void add_row_xrgb(int16x8_t *v, const uint8_t *texels, uint8x16_t weight, int32_t nx, bool negative)
+NEON_INLINE void add_row_xrgb(int16x8_t *v, const uint8_t *texels, uint8x16_t weight, int32_t nx, bool negative)
 {
     for (int32_t pair = 0; 2 * pair < nx; pair += 2) {
         if (nx <= 2 * pair + 2) {
-            v[pair] = add_products(v[pair], eight_bytes(texels + 8 * pair, negative), vget_low_u8(weight), negative);
+            v[pair] = add_products(v[pair], vld1_u8(texels + 8 * pair), vget_low_u8(weight), negative);
         } else {
-            const uint8x16_t four = sixteen_bytes(texels + 8 * pair, negative);
+            const uint8x16_t four = vld1q_u8(texels + 8 * pair);
             v[pair] = add_products(v[pair], vget_low_u8(four), vget_low_u8(weight), negative);
             v[pair + 1] = add_products(v[pair + 1], vget_high_u8(four), vget_high_u8(weight), negative);
         }
@@ -112,15 +98,16 @@ INLINE void add_row_xrgb(int16x8_t *v, const uint8_t *texels, uint8x16_t weight,
 }
 
 /* Second-pass sums of one pixel, negated where weights are negative. */
-INLINE int32x4_t weigh_xrgb(const uint8_t *const *rows, uint32_t texel, const splats_t *splats, int32_t ny,
-                            const int16_t *second, int32_t nx, bool negative)
+NEON_INLINE int32x4_t weigh_xrgb(const uint8_t *texels, ptrdiff_t stride, const uint8_t *first, int32_t ny,
+                                 const uint8_t *second, int32_t nx, bool negative)
 {
+    const splats_t splats = load_splats(first, ny);
     int16x8_t v[WINDOW_SHORT_TAPS / 2];
-    first_row_xrgb(v, rows[0] + texel, splats->row[0], nx, negative);
+    first_row_xrgb(v, texels, splats.row[0], nx, negative);
     for (int t = 1; t < ny; t++)
-        add_row_xrgb(v, rows[t] + texel, splats->row[t], nx, negative);
+        add_row_xrgb(v, texels + t * stride, splats.row[t], nx, negative);
 
-    const int16x8_t weights = vld1q_s16(second);
+    const int16x8_t weights = vreinterpretq_s16_u8(vld1q_u8(second));
     const int16x4_t left = vget_low_s16(weights), right = vget_high_s16(weights);
     int32x4_t sums = first_pixel(vget_low_s16(v[0]), left, negative);
     sums = ADD_PIXEL(sums, vget_high_s16(v[0]), left, 1, negative);
@@ -140,7 +127,7 @@ INLINE int32x4_t weigh_xrgb(const uint8_t *const *rows, uint32_t texel, const sp
 }
 
 /* Eight values; the shift of SUM_SHIFT in two, which round down both: to 16 bits, then with saturation to 8. */
-INLINE uint8x8_t pixels_from_sums(int32x4_t a, int32x4_t b, bool negative)
+NEON_INLINE uint8x8_t pixels_from_sums(int32x4_t a, int32x4_t b, bool negative)
 {
     const int32x4_t start = vdupq_n_s32(negative ? START_NEGATIVE : ROUNDING);
     const int16x8_t high = negative ? vcombine_s16(vsubhn_s32(start, a), vsubhn_s32(start, b))
@@ -148,33 +135,35 @@ INLINE uint8x8_t pixels_from_sums(int32x4_t a, int32x4_t b, bool negative)
     return vqshrun_n_s16(high, SUM_SHIFT - 16);
 }
 
-INLINE void patch_xrgb(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t nx,
-                       int32_t ny, bool negative)
+NEON_INLINE void patch_xrgb(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t nx,
+                            int32_t ny, bool negative)
 {
-    const window_source_t from = *source; /* what is written might alias it */
-    const uint8_t *first = window->y.first_bytes, *rows[WINDOW_SHORT_TAPS];
-    const int16_t *second = window->x.second;
-    for (int t = 0; t < ny; t++)
-        rows[t] = from.data + (ptrdiff_t)t * from.stride;
-    for (int32_t r = 0; r < patch->height; r++) {
+    const window_source_t from = *source; /* what is written might alias these */
+    const ptrdiff_t stride = negative ? COPY_STRIDE : from.stride;
+    const uint8_t *first = window->y.first_bytes;
+    const uint8_t *second = (const uint8_t *)window->x.second;
+    const int32_t width = patch->width, height = patch->height;
+    for (int32_t r = 0; r < height; r++) {
         const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
         uint8_t *out = patch->out + r * patch->stride;
-        for (int32_t k = 0; k < patch->width; k += PATCH_STEP) {
-            const int32_t at = step_begin(k, patch->width);
-            const window_step_t step = window_step(&from, x_q18 + at, y_q18 + at, 2);
-            int32x4_t sums[PATCH_STEP];
-            for (int i = 0; i < PATCH_STEP; i++) {
-                const splats_t splats = load_splats(first + step.row_y[i], ny);
-                sums[i] = weigh_xrgb(rows, step.texel[i], &splats, ny, second + step.row_x[i], nx, negative);
-            }
-            vst1q_u8(out + (ptrdiff_t)at * 4, vcombine_u8(pixels_from_sums(sums[0], sums[1], negative),
-                                                          pixels_from_sums(sums[2], sums[3], negative)));
+        for (const int32_t *end = x_q18 + width; x_q18 < end; x_q18 += PATCH_STEP, y_q18 += PATCH_STEP) {
+            const window_step_t step = window_step(&from, x_q18, y_q18, 2);
+            const int32x4_t a = weigh_xrgb(from.data + step.texel[0], stride, first + step.row_y[0], ny,
+                                           second + step.row_x[0], nx, negative);
+            const int32x4_t b = weigh_xrgb(from.data + step.texel[1], stride, first + step.row_y[1], ny,
+                                           second + step.row_x[1], nx, negative);
+            const int32x4_t c = weigh_xrgb(from.data + step.texel[2], stride, first + step.row_y[2], ny,
+                                           second + step.row_x[2], nx, negative);
+            const int32x4_t d = weigh_xrgb(from.data + step.texel[3], stride, first + step.row_y[3], ny,
+                                           second + step.row_x[3], nx, negative);
+            vst1q_u8(out, vcombine_u8(pixels_from_sums(a, b, negative), pixels_from_sums(c, d, negative)));
+            out += 4 * PATCH_STEP;
         }
     }
 }
 
-INLINE void rows_4_to_8_xrgb(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t nx,
-                             bool negative)
+NEON_INLINE void rows_4_to_8_xrgb(const patch_t *patch, const window_t *window, const window_source_t *source,
+                                  int32_t nx, bool negative)
 {
     switch (window->y.taps) {
     case 4:
@@ -194,7 +183,8 @@ INLINE void rows_4_to_8_xrgb(const patch_t *patch, const window_t *window, const
     }
 }
 
-INLINE void rows_1_to_8_xrgb(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t nx)
+NEON_INLINE void rows_1_to_8_xrgb(const patch_t *patch, const window_t *window, const window_source_t *source,
+                                  int32_t nx)
 {
     switch (window->y.taps) {
     case 1:
@@ -296,46 +286,50 @@ static weigh_patch_fn *const negative_xrgb[WINDOW_SHORT_TAPS + 1] = {
 };
 
 /* Second-pass sums of one pixel, to be added up; negated where weights are negative. Rows of eight texels are read. */
-INLINE int32x4_t weigh_gray(const uint8_t *const *rows, uint32_t texel, const splats_t *splats, int32_t ny,
-                            const int16_t *second, bool negative)
+NEON_INLINE int32x4_t weigh_gray(const uint8_t *texels, ptrdiff_t stride, const uint8_t *first, int32_t ny,
+                                 const uint8_t *second, bool negative)
 {
-    int16x8_t v = products(eight_bytes(rows[0] + texel, negative), vget_low_u8(splats->row[0]), negative);
+    const splats_t splats = load_splats(first, ny);
+    int16x8_t v = products(vld1_u8(texels), vget_low_u8(splats.row[0]), negative);
     for (int t = 1; t < ny; t++)
-        v = add_products(v, eight_bytes(rows[t] + texel, negative), vget_low_u8(splats->row[t]), negative);
-    const int16x8_t weights = vld1q_s16(second);
+        v = add_products(v, vld1_u8(texels + t * stride), vget_low_u8(splats.row[t]), negative);
+    const int16x8_t weights = vreinterpretq_s16_u8(vld1q_u8(second));
     if (negative)
         return vmlal_high_s16(vmull_s16(vget_low_s16(v), vget_low_s16(weights)), v, weights);
     const uint16x8_t u = vreinterpretq_u16_s16(v), w = vreinterpretq_u16_s16(weights);
     return vreinterpretq_s32_u32(vmlal_high_u16(vmull_u16(vget_low_u16(u), vget_low_u16(w)), u, w));
 }
 
-INLINE void patch_gray(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t ny,
-                       bool negative)
+NEON_INLINE void patch_gray(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t ny,
+                            bool negative)
 {
-    const window_source_t from = *source; /* what is written might alias it */
-    const uint8_t *first = window->y.first_bytes, *rows[WINDOW_SHORT_TAPS];
-    const int16_t *second = window->x.second;
-    for (int t = 0; t < ny; t++)
-        rows[t] = from.data + (ptrdiff_t)t * from.stride;
-    for (int32_t r = 0; r < patch->height; r++) {
+    const window_source_t from = *source; /* what is written might alias these */
+    const ptrdiff_t stride = negative ? COPY_STRIDE : from.stride;
+    const uint8_t *first = window->y.first_bytes;
+    const uint8_t *second = (const uint8_t *)window->x.second;
+    const int32_t width = patch->width, height = patch->height;
+    for (int32_t r = 0; r < height; r++) {
         const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
         uint8_t *out = patch->out + r * patch->stride;
-        for (int32_t k = 0; k < patch->width; k += PATCH_STEP) {
-            const int32_t at = step_begin(k, patch->width);
-            const window_step_t step = window_step(&from, x_q18 + at, y_q18 + at, 0);
-            int32x4_t sums[PATCH_STEP];
-            for (int i = 0; i < PATCH_STEP; i++) {
-                const splats_t splats = load_splats(first + step.row_y[i], ny);
-                sums[i] = weigh_gray(rows, step.texel[i], &splats, ny, second + step.row_x[i], negative);
-            }
-            const int32x4_t four = vpaddq_s32(vpaddq_s32(sums[0], sums[1]), vpaddq_s32(sums[2], sums[3]));
+        for (const int32_t *end = x_q18 + width; x_q18 < end; x_q18 += PATCH_STEP, y_q18 += PATCH_STEP) {
+            const window_step_t step = window_step(&from, x_q18, y_q18, 0);
+            const int32x4_t a = weigh_gray(from.data + step.texel[0], stride, first + step.row_y[0], ny,
+                                           second + step.row_x[0], negative);
+            const int32x4_t b = weigh_gray(from.data + step.texel[1], stride, first + step.row_y[1], ny,
+                                           second + step.row_x[1], negative);
+            const int32x4_t c = weigh_gray(from.data + step.texel[2], stride, first + step.row_y[2], ny,
+                                           second + step.row_x[2], negative);
+            const int32x4_t d = weigh_gray(from.data + step.texel[3], stride, first + step.row_y[3], ny,
+                                           second + step.row_x[3], negative);
+            const int32x4_t four = vpaddq_s32(vpaddq_s32(a, b), vpaddq_s32(c, d));
             const uint8x8_t pixels = pixels_from_sums(four, four, negative);
-            memcpy(out + at, &pixels, PATCH_STEP);
+            memcpy(out, &pixels, PATCH_STEP);
+            out += PATCH_STEP;
         }
     }
 }
 
-INLINE void rows_gray(const patch_t *patch, const window_t *window, const window_source_t *source, bool negative)
+NEON_INLINE void rows_gray(const patch_t *patch, const window_t *window, const window_source_t *source, bool negative)
 {
     switch (window->y.taps) {
     case 4:
@@ -387,11 +381,20 @@ void resample_window_xrgb_neon(const patch_t *patch, const window_t *window)
     } else if (!is_short(window)) {
         resample_long_xrgb_neon(patch, window);
     } else {
+        const bool negative = window->x.negative;
+        const int32_t nx = window->x.taps, ny = window->y.taps;
         const texels_t texels = texels_of(&window->picture);
-        const int32_t nx = (window->x.taps + 1) & -2, ny = window->y.taps;
-        const int32_t taps[2] = {nx, ny < MIN_TAPS ? MIN_TAPS : ny};
-        weigh_anywhere(patch, window, &texels, taps, 4,
-                       (window->x.negative ? negative_xrgb : positive_xrgb)[window->x.taps]);
+        patch_loop_t loop = {
+            .weigh = (negative ? negative_xrgb : positive_xrgb)[nx],
+            .taps_x = (nx + 1) & -2,
+            .taps_y = ny < MIN_TAPS ? MIN_TAPS : ny,
+            .pixel_bytes = 4,
+            .step = PATCH_STEP,
+            .centred = negative,
+        };
+        if (window->x.resampler == WARP_LINEAR)
+            loop.weigh = resample_linear_xrgb_neon;
+        weigh_anywhere(patch, window, &texels, &loop);
     }
 }
 
@@ -402,8 +405,21 @@ void resample_window_gray_neon(const patch_t *patch, const window_t *window)
     } else if (!is_short(window)) {
         resample_long_gray_neon(patch, window);
     } else {
+        const bool negative = window->x.negative;
         const texels_t texels = texels_of(&window->picture);
-        const int32_t ny = window->y.taps, taps[2] = {WINDOW_SHORT_TAPS, ny < MIN_TAPS ? MIN_TAPS : ny};
-        weigh_anywhere(patch, window, &texels, taps, 1, window->x.negative ? negative_gray : positive_gray);
+        patch_loop_t loop = {
+            .weigh = negative ? negative_gray : positive_gray,
+            .taps_x = WINDOW_SHORT_TAPS,
+            .taps_y = window->y.taps < MIN_TAPS ? MIN_TAPS : window->y.taps,
+            .pixel_bytes = 1,
+            .step = PATCH_STEP,
+            .centred = negative,
+        };
+        if (window->x.resampler == WARP_LINEAR) {
+            loop.weigh = resample_linear_gray_neon;
+            loop.taps_x = MIN_TAPS;
+            loop.step = RESAMPLE_LINEAR_GRAY_STEP;
+        }
+        weigh_anywhere(patch, window, &texels, &loop);
     }
 }

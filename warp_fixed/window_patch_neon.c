@@ -6,7 +6,7 @@
 
 #include "warp_fixed/fixed.h"
 
-enum { MIRRORED_BYTES = 1 << 16, ALIGNMENT = 16 };
+enum { COPY_ROWS = 72, VECTOR = 16, STRIP_VECTORS = 4 };
 
 /* Texels that the windows of a patch read along one axis: [begin, end). */
 typedef struct {
@@ -48,11 +48,11 @@ bool points_inside(const patch_t *patch, int32_t width, int32_t height)
 }
 
 /* Copy that part of the picture, and its mirror images where it reaches beyond. */
-static void copy_mirrored(uint8_t *to, ptrdiff_t to_stride, const texels_t *from, reach_t x, reach_t y)
+static void copy_mirrored(uint8_t *to, const texels_t *from, reach_t x, reach_t y)
 {
     const int32_t bytes = from->texel_bytes;
     const int32_t first = clamp_i32(0, x.begin, x.end), last = clamp_i32(from->width, first, x.end);
-    for (int32_t v = y.begin; v < y.end; v++, to += to_stride) {
+    for (int32_t v = y.begin; v < y.end; v++, to += COPY_STRIDE) {
         const uint8_t *row = from->data + mirror_index(v, from->height) * from->stride;
         for (int32_t u = x.begin; u < first; u++)
             memcpy(to + (u - x.begin) * bytes, row + mirror_index(u, from->width) * bytes, (size_t)bytes);
@@ -63,18 +63,46 @@ static void copy_mirrored(uint8_t *to, ptrdiff_t to_stride, const texels_t *from
     }
 }
 
-static ptrdiff_t mirrored_stride(reach_t x, int32_t texel_bytes)
+/* Rows of so many vectors, less 128. May be in place. */
+NEON_INLINE void centre_strip(uint8_t *to, const uint8_t *from, ptrdiff_t stride, int32_t rows, int vectors)
 {
-    return ((ptrdiff_t)(x.end - x.begin) * texel_bytes + ALIGNMENT - 1) & -ALIGNMENT;
+    for (int32_t v = 0; v < rows; v++, to += COPY_STRIDE, from += stride)
+        for (int i = 0; i < vectors; i++)
+            vst1q_u8(to + VECTOR * i, veorq_u8(vld1q_u8(from + VECTOR * i), vdupq_n_u8(128)));
+}
+
+/* Columns of cache lines, one after the other. */
+static void centre(uint8_t *to, const uint8_t *from, ptrdiff_t stride, int32_t rows, int32_t vectors)
+{
+    for (; vectors >= STRIP_VECTORS; vectors -= STRIP_VECTORS) {
+        centre_strip(to, from, stride, rows, STRIP_VECTORS);
+        to += STRIP_VECTORS * VECTOR;
+        from += STRIP_VECTORS * VECTOR;
+    }
+    if (vectors == 3)
+        centre_strip(to, from, stride, rows, 3);
+    else if (vectors == 2)
+        centre_strip(to, from, stride, rows, 2);
+    else if (vectors == 1)
+        centre_strip(to, from, stride, rows, 1);
 }
 
 /* What the pieces of a call share. */
 typedef struct {
     const window_t *window;
     const texels_t *texels;
-    weigh_patch_fn *weigh;
-    int32_t taps[2], pixel_bytes;
+    const patch_loop_t *loop;
 } call_t;
+
+static reach_t columns_of(const call_t *call, const patch_t *patch)
+{
+    return reach_of(patch, patch->x_q18, start_q18(&call->window->x), call->loop->taps_x);
+}
+
+static reach_t rows_of(const call_t *call, const patch_t *patch)
+{
+    return reach_of(patch, patch->y_q18, start_q18(&call->window->y), call->loop->taps_y);
+}
 
 static window_source_t source_from(const call_t *call, const uint8_t *data, ptrdiff_t stride, int32_t x, int32_t y)
 {
@@ -86,69 +114,101 @@ static window_source_t source_from(const call_t *call, const uint8_t *data, ptrd
 static __attribute__((noinline)) void weigh_narrow(const call_t *call, const patch_t *patch,
                                                    const window_source_t *source)
 {
-    int32_t x_q18[PATCH_STEP], y_q18[PATCH_STEP];
-    uint8_t pixels[PATCH_STEP * sizeof(uint32_t)];
+    int32_t x_q18[PATCH_MAX_STEP], y_q18[PATCH_MAX_STEP];
+    uint8_t pixels[PATCH_MAX_STEP * sizeof(uint32_t)];
     for (int32_t r = 0; r < patch->height; r++) {
-        for (int32_t k = 0; k < PATCH_STEP; k++) {
+        for (int32_t k = 0; k < call->loop->step; k++) {
             const int32_t point = r * PATCH_MAX_WIDTH + (k < patch->width ? k : 0);
             x_q18[k] = patch->x_q18[point];
             y_q18[k] = patch->y_q18[point];
         }
-        const patch_t step = {pixels, 0, x_q18, y_q18, PATCH_STEP, 1};
-        call->weigh(&step, call->window, source);
-        memcpy(patch->out + r * patch->stride, pixels, (size_t)(patch->width * call->pixel_bytes));
+        const patch_t step = {pixels, 0, x_q18, y_q18, call->loop->step, 1};
+        call->loop->weigh(&step, call->window, source);
+        memcpy(patch->out + r * patch->stride, pixels, (size_t)(patch->width * call->loop->pixel_bytes));
     }
 }
 
+/* Whole steps; the last columns are done again with those before them. */
 static void weigh_in(const call_t *call, const patch_t *patch, const window_source_t *source)
 {
-    if (patch->width < PATCH_STEP)
+    const int32_t step = call->loop->step, rest = patch->width % step, from = patch->width - step;
+    if (from < 0) {
         weigh_narrow(call, patch, source);
-    else
-        call->weigh(patch, call->window, source);
+        return;
+    }
+    patch_t steps = *patch;
+    steps.width -= rest;
+    call->loop->weigh(&steps, call->window, source);
+    if (rest != 0) {
+        const patch_t last = {patch->out + from * call->loop->pixel_bytes,
+                              patch->stride,
+                              patch->x_q18 + from,
+                              patch->y_q18 + from,
+                              step,
+                              patch->height};
+        call->loop->weigh(&last, call->window, source);
+    }
+}
+
+static int32_t vectors_of(const texels_t *texels, reach_t x)
+{
+    return ((x.end - x.begin) * texels->texel_bytes + VECTOR - 1) / VECTOR;
 }
 
 /* Apart from its callers, whose frames would hold this buffer several times over. */
-static __attribute__((noinline)) void weigh_mirrored(const call_t *call, const patch_t *patch, reach_t x, reach_t y)
+static __attribute__((noinline)) void weigh_copy(const call_t *call, const patch_t *patch, reach_t x, reach_t y)
 {
-    uint8_t mirrored[MIRRORED_BYTES];
-    const ptrdiff_t stride = mirrored_stride(x, call->texels->texel_bytes);
-    copy_mirrored(mirrored, stride, call->texels, x, y);
-    const window_source_t source = source_from(call, mirrored, stride, x.begin, y.begin);
+    uint8_t copy[COPY_ROWS * COPY_STRIDE];
+    const texels_t *texels = call->texels;
+    const int32_t vectors = vectors_of(texels, x), rows = y.end - y.begin, first = x.begin * texels->texel_bytes;
+    const bool inside = x.begin >= 0 && first + vectors * VECTOR <= texels->width * texels->texel_bytes;
+    if (call->loop->centred && inside && is_inside(y, texels->height)) {
+        centre(copy, texels->data + y.begin * texels->stride + first, texels->stride, rows, vectors);
+    } else {
+        copy_mirrored(copy, texels, x, y);
+        if (call->loop->centred)
+            centre(copy, copy, COPY_STRIDE, rows, vectors);
+    }
+    const window_source_t source = source_from(call, copy, COPY_STRIDE, x.begin, y.begin);
     weigh_in(call, patch, &source);
+}
+
+static void halve(patch_t half[2], const patch_t *patch, int32_t pixel_bytes)
+{
+    half[0] = half[1] = *patch;
+    if (patch->height > 1) {
+        const int32_t rows = patch->height / 2;
+        half[0].height = rows;
+        half[1].height -= rows;
+        half[1].out += rows * patch->stride;
+        half[1].x_q18 += rows * PATCH_MAX_WIDTH;
+        half[1].y_q18 += rows * PATCH_MAX_WIDTH;
+    } else {
+        const int32_t columns = patch->width / 2;
+        half[0].width = columns;
+        half[1].width -= columns;
+        half[1].out += columns * pixel_bytes;
+        half[1].x_q18 += columns;
+        half[1].y_q18 += columns;
+    }
 }
 
 /* Halves, ten times at most, until what a piece reads is inside the picture or can be copied. */
 static void weigh_pieces(const call_t *call, const patch_t *patch)
 {
     const texels_t *texels = call->texels;
-    const reach_t x = reach_of(patch, patch->x_q18, start_q18(&call->window->x), call->taps[0]);
-    const reach_t y = reach_of(patch, patch->y_q18, start_q18(&call->window->y), call->taps[1]);
-    if (is_inside(x, texels->width) && is_inside(y, texels->height)) {
+    const reach_t x = columns_of(call, patch), y = rows_of(call, patch);
+    if (!call->loop->centred && is_inside(x, texels->width) && is_inside(y, texels->height)) {
         const window_source_t source = source_from(call, texels->data, texels->stride, 0, 0);
         weigh_in(call, patch, &source);
-        return;
-    }
-    if (mirrored_stride(x, texels->texel_bytes) * (y.end - y.begin) <= MIRRORED_BYTES) {
-        weigh_mirrored(call, patch, x, y);
-        return;
-    }
-    patch_t half[2] = {*patch, *patch};
-    if (patch->height > 1) {
-        half[0].height /= 2;
-        half[1].height -= half[0].height;
-        half[1].out += half[0].height * patch->stride;
-        half[1].x_q18 += half[0].height * PATCH_MAX_WIDTH;
-        half[1].y_q18 += half[0].height * PATCH_MAX_WIDTH;
+    } else if (vectors_of(texels, x) * VECTOR <= COPY_STRIDE && y.end - y.begin <= COPY_ROWS) {
+        weigh_copy(call, patch, x, y);
     } else {
-        half[0].width /= 2;
-        half[1].width -= half[0].width;
-        half[1].out += half[0].width * call->pixel_bytes;
-        half[1].x_q18 += half[0].width;
-        half[1].y_q18 += half[0].width;
+        patch_t half[2];
+        halve(half, patch, call->loop->pixel_bytes);
+        weigh_pieces(call, &half[0]);
+        weigh_pieces(call, &half[1]);
     }
-    weigh_pieces(call, &half[0]);
-    weigh_pieces(call, &half[1]);
 }
 
 static void clamp_points(int32_t *to, const int32_t *from, const patch_t *patch, int32_t size)
@@ -169,18 +229,13 @@ static __attribute__((noinline)) void weigh_clamped(const call_t *call, const pa
     weigh_pieces(call, &clamped);
 }
 
-void weigh_anywhere(const patch_t *patch, const window_t *window, const texels_t *texels, const int32_t taps[2],
-                    int32_t pixel_bytes, weigh_patch_fn *weigh)
+void weigh_anywhere(const patch_t *patch, const window_t *window, const texels_t *texels, const patch_loop_t *loop)
 {
     if (patch->width == 0 || patch->height == 0)
         return;
-    const call_t call = {window, texels, weigh, {taps[0], taps[1]}, pixel_bytes};
-    const reach_t x = reach_of(patch, patch->x_q18, start_q18(&window->x), taps[0]);
-    const reach_t y = reach_of(patch, patch->y_q18, start_q18(&window->y), taps[1]);
-    if (patch->width < PATCH_STEP || !is_inside(x, texels->width) || !is_inside(y, texels->height)) {
+    const call_t call = {window, texels, loop};
+    if (is_inside(columns_of(&call, patch), texels->width) && is_inside(rows_of(&call, patch), texels->height))
+        weigh_pieces(&call, patch);
+    else
         weigh_clamped(&call, patch);
-        return;
-    }
-    const window_source_t source = source_from(&call, texels->data, texels->stride, 0, 0);
-    weigh(patch, window, &source);
 }

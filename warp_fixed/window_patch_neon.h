@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Patches whose windows need no checks: those inside the picture, and copies of its edge continued by mirroring.
+//
+// Loops with negative weights read copies only, whose bytes are less 128, as signed ones: the copy costs some two
+// instructions a pixel, and saves one for each vector of texels and the addresses of all rows but the first.
 #ifndef WARP_FIXED_WINDOW_PATCH_NEON_H
 #define WARP_FIXED_WINDOW_PATCH_NEON_H
 
@@ -10,7 +13,11 @@
 #include "warp_fixed/kernels.h"
 #include "warp_fixed/neon.h"
 
-enum { PATCH_STEP = 4 };
+enum {
+    PATCH_STEP = 4,
+    PATCH_MAX_STEP = 8,
+    COPY_STRIDE = 13 * 64 /**< an odd number of cache lines: rows that follow one another do not share sets */
+};
 
 /** A picture, or its coefficients, as bytes. */
 typedef struct {
@@ -27,44 +34,59 @@ typedef struct {
     int32_t x_start_q18, y_start_q18;
 } window_source_t;
 
-/** Four windows. Rows of weights are in weights, counted from the begin of the table. */
+/** Four windows: bytes from the source's first, and from row 0 of the table of second-pass weights. */
 typedef struct {
-    uint32_t texel[PATCH_STEP]; /**< bytes from the source's first */
-    uint32_t row_x[PATCH_STEP], row_y[PATCH_STEP];
+    uint32_t texel[PATCH_STEP];
+    uint32_t row_x[PATCH_STEP];
+    uint32_t row_y[PATCH_STEP]; /**< entries (bytes in first_bytes) from row 0 of a table of first-pass weights */
 } window_step_t;
 
-/**
- * Weigh the windows of a patch of at least PATCH_STEP pixels a row, all of them inside the source.
- *
- * Pixels may be written more than once.
- */
+/** Weigh the windows of a patch, all of them inside the source. Its width is a multiple of the loop's step. */
 typedef void weigh_patch_fn(const patch_t *patch, const window_t *window, const window_source_t *source);
 
 /**
- * Weigh a patch whose windows may leave the picture, at level 0.
- *
- * @param taps_x, taps_y  Texels that `weigh` reads from a window's begin on.
- * @param pixel_bytes     Of what it writes.
+ * How a loop reads and writes.
  */
-void weigh_anywhere(const patch_t *patch, const window_t *window, const texels_t *texels, const int32_t taps[2],
-                    int32_t pixel_bytes, weigh_patch_fn *weigh);
+typedef struct {
+    weigh_patch_fn *weigh;
+    int32_t taps_x, taps_y; /**< texels that it reads from a window's begin on */
+    int32_t pixel_bytes;    /**< that it writes for a pixel */
+    int32_t step;           /**< pixels that it makes at once; PATCH_MAX_STEP at most */
+    bool centred;           /**< it reads bytes less 128, and a source's stride is COPY_STRIDE */
+} patch_loop_t;
+
+/** Weigh a patch whose windows may leave the picture, at level 0. */
+void weigh_anywhere(const patch_t *patch, const window_t *window, const texels_t *texels, const patch_loop_t *loop);
 
 /** Whether the points of a patch of at least one pixel need no clamping. */
 bool points_inside(const patch_t *patch, int32_t width, int32_t height);
+
+/** Where four windows begin, in whole texels and in 1/128: the integer parts' offset, and the points themselves. */
+typedef struct {
+    uint32x4_t texel;
+    uint32x4_t x_q18, y_q18;
+} window_begins_t;
+
+static inline window_begins_t window_begins(const window_source_t *source, const int32_t *x_q18, const int32_t *y_q18,
+                                            int texel_log2)
+{
+    const int32x4_t x = vaddq_s32(vld1q_s32(x_q18), vdupq_n_s32(source->x_start_q18));
+    const int32x4_t y = vaddq_s32(vld1q_s32(y_q18), vdupq_n_s32(source->y_start_q18));
+    const int32x4_t column = vshlq_s32(vshrq_n_s32(x, GRID_FRACTION_BITS), vdupq_n_s32(texel_log2));
+    const int32x4_t texel = vmlaq_n_s32(column, vshrq_n_s32(y, GRID_FRACTION_BITS), source->stride);
+    return (window_begins_t){vreinterpretq_u32_s32(texel), vreinterpretq_u32_s32(x), vreinterpretq_u32_s32(y)};
+}
 
 /** The windows of four points; rows of weights have WINDOW_SHORT_TAPS entries. */
 static inline window_step_t window_step(const window_source_t *source, const int32_t *x_q18, const int32_t *y_q18,
                                         int texel_log2)
 {
     enum { TO_ROW = GRID_FRACTION_BITS - PHASE_BITS - 3, ROWS = (PHASES - 1) * WINDOW_SHORT_TAPS };
-    const int32x4_t x = vaddq_s32(vld1q_s32(x_q18), vdupq_n_s32(source->x_start_q18));
-    const int32x4_t y = vaddq_s32(vld1q_s32(y_q18), vdupq_n_s32(source->y_start_q18));
-    const int32x4_t column = vshlq_s32(vshrq_n_s32(x, GRID_FRACTION_BITS), vdupq_n_s32(texel_log2));
-    const int32x4_t texel = vmlaq_n_s32(column, vshrq_n_s32(y, GRID_FRACTION_BITS), source->stride);
+    const window_begins_t begins = window_begins(source, x_q18, y_q18, texel_log2);
     window_step_t step;
-    vst1q_u32(step.texel, vreinterpretq_u32_s32(texel));
-    vst1q_u32(step.row_x, vandq_u32(vreinterpretq_u32_s32(vshrq_n_s32(x, TO_ROW)), vdupq_n_u32(ROWS)));
-    vst1q_u32(step.row_y, vandq_u32(vreinterpretq_u32_s32(vshrq_n_s32(y, TO_ROW)), vdupq_n_u32(ROWS)));
+    vst1q_u32(step.texel, begins.texel);
+    vst1q_u32(step.row_x, vandq_u32(vshrq_n_u32(begins.x_q18, TO_ROW - 1), vdupq_n_u32(2 * ROWS)));
+    vst1q_u32(step.row_y, vandq_u32(vshrq_n_u32(begins.y_q18, TO_ROW), vdupq_n_u32(ROWS)));
     return step;
 }
 
@@ -74,7 +96,7 @@ static inline bool offsets_fit(ptrdiff_t stride, int32_t rows)
     return (int64_t)stride * rows <= INT32_MAX;
 }
 
-/** @return Where step k of a row of `width` pixels begins: the last one may overlap the one before. */
+/** @return Where step k of a row of at least PATCH_STEP pixels begins: the last one may overlap the one before. */
 static inline int32_t step_begin(int32_t k, int32_t width)
 {
     return k + PATCH_STEP <= width ? k : width - PATCH_STEP;

@@ -175,6 +175,7 @@ void window_weights_init(window_weights_t *weights, warp_resampler_t resampler, 
     const kernel_t *kernel = kernel_of(resampler);
     if (kernel == NULL)
         return;
+    weights->resampler = resampler;
     weights->of_coefficients = of_coefficients;
     weights->negative = false;
     weights->half_width = kernel->half_width;
@@ -227,6 +228,7 @@ window_axis_t window_axis(const window_weights_t *weights, uint16_t side)
     const uint32_t at = weights->at[side];
     const int32_t taps = weights->taps[side];
     return (window_axis_t){
+        .resampler = weights->resampler,
         .negative = weights->negative,
         .first = &weights->first[at],
         .second = &weights->second[at],

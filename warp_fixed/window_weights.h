@@ -29,6 +29,7 @@ enum {
 
 /** Weights along one axis for one side: PHASES rows of each table. */
 typedef struct {
+    warp_resampler_t resampler;
     bool negative; /**< some weights of the table are: sums overshoot what bytes can make */
     const int16_t
         *first; /**< sum FIRST_SUM, FIRST_SUM_POSITIVE, or that << LONG_FIRST_SHIFT; of coefficients as second */
@@ -43,6 +44,7 @@ typedef struct {
 
 /** The table of one resampler. */
 typedef struct {
+    warp_resampler_t resampler;
     bool of_coefficients;      /**< not of texels: kernels.h */
     bool negative;             /**< some weights are */
     int32_t half_width;        /**< of the kernel, 1/128 px */
