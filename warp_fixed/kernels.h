@@ -179,7 +179,7 @@ typedef struct {
 /** Plain C: the definition of every loop. */
 extern const warp_kernels_t warp_kernels_scalar;
 
-/** NEON (neon.h); loops that have no vector code yet are the scalar ones. */
+/** NEON (neon.h). */
 extern const warp_kernels_t warp_kernels_neon;
 
 enum { WARP_KERNELS_LEVELS = 2 };

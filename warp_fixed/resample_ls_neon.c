@@ -14,32 +14,48 @@
 
 enum { ROWS = LS_EDGE_PHASES + PHASES /* of weights, from either end */ };
 
-/* Along one axis, of PATCH_STEP points: their first coefficients, and their weights as rows of the axis' table. */
+/* What the points of a patch share along one axis. */
 typedef struct {
-    int32x4_t first, row;
+    int32x4_t size, factor, phases, edge, middle, last;
+    const int32_t *weight;
+} ls_placer_t;
+
+static inline ls_placer_t placer_of(const ls_axis_t *axis)
+{
+    return (ls_placer_t){
+        vdupq_n_s32(axis->knots.size << GRID_FRACTION_BITS),
+        vdupq_n_s32(axis->phase_factor),
+        vdupq_n_s32(axis->phases),
+        vdupq_n_s32(axis->edge_phases),
+        vdupq_n_s32(axis->middle_phase),
+        vdupq_n_s32(axis->coefficients - LS_TAPS),
+        &axis->weight[0][0][0],
+    };
+}
+
+/* Along one axis, of PATCH_STEP points: their first coefficients, and where in the table their weights begin. */
+typedef struct {
+    int32x4_t first, weight;
 } ls_places_t;
 
 /* As ls_axis_taps(). */
-INLINE ls_places_t places_of(const ls_axis_t *axis, const int32_t *x_q18)
+INLINE ls_places_t places_of(const ls_placer_t *axis, const int32_t *x_q18)
 {
-    const int32x4_t size = vdupq_n_s32(axis->knots.size << GRID_FRACTION_BITS), zero = vdupq_n_s32(0);
-    const int32x4_t x = vminq_s32(vmaxq_s32(vld1q_s32(x_q18), zero), size);
-    const int32x4_t factor = vdupq_n_s32(axis->phase_factor);
-    const int32x4_t low = vreinterpretq_s32_s64(vmull_s32(vget_low_s32(x), vget_low_s32(factor)));
-    const int32x4_t high = vreinterpretq_s32_s64(vmull_high_s32(x, factor));
+    const int32x4_t zero = vdupq_n_s32(0), x = vminq_s32(vmaxq_s32(vld1q_s32(x_q18), zero), axis->size);
+    const int32x4_t low = vreinterpretq_s32_s64(vmull_s32(vget_low_s32(x), vget_low_s32(axis->factor)));
+    const int32x4_t high = vreinterpretq_s32_s64(vmull_high_s32(x, axis->factor));
     const int32x4_t phase = vrshrq_n_s32(vuzp2q_s32(low, high), GRID_FRACTION_BITS + LS_FACTOR_BITS - 32);
 
-    const int32x4_t other = vsubq_s32(vdupq_n_s32(axis->phases), phase), from_end = vminq_s32(phase, other);
+    const int32x4_t other = vsubq_s32(axis->phases, phase), from_end = vminq_s32(phase, other);
     const uint32x4_t mirrored = vcgtq_s32(phase, other);
-    const int32x4_t edge = vdupq_n_s32(axis->edge_phases);
-    const int32x4_t from_middle = vsubq_s32(from_end, vdupq_n_s32(axis->middle_phase));
-    const int32x4_t repeated = vaddq_s32(vandq_s32(from_middle, vdupq_n_s32(PHASES - 1)), edge);
-    const int32x4_t row = vbslq_s32(vcltq_s32(from_end, edge), from_end, repeated);
+    const int32x4_t from_middle = vsubq_s32(from_end, axis->middle);
+    const int32x4_t repeated = vaddq_s32(vandq_s32(from_middle, vdupq_n_s32(PHASES - 1)), axis->edge);
+    const int32x4_t row = vbslq_s32(vcltq_s32(from_end, axis->edge), from_end, repeated);
+    const int32x4_t of_end = vandq_s32(vreinterpretq_s32_u32(mirrored), vdupq_n_s32(ROWS));
     const int32x4_t piece = vmaxq_s32(vshrq_n_s32(from_middle, PHASE_BITS), zero);
-    const int32x4_t last = vdupq_n_s32(axis->coefficients - LS_TAPS);
     return (ls_places_t){
-        vbslq_s32(mirrored, vsubq_s32(last, piece), piece),
-        vaddq_s32(row, vandq_s32(vreinterpretq_s32_u32(mirrored), vdupq_n_s32(ROWS))),
+        vbslq_s32(mirrored, vsubq_s32(axis->last, piece), piece),
+        vshlq_n_s32(vaddq_s32(row, of_end), 2),
     };
 }
 
@@ -99,48 +115,83 @@ INLINE int64x2_t evaluate_gray(const int32_t *at, ptrdiff_t stride, int32x4_t ac
                         down);
 }
 
-/* Means with fraction_bits, of which there are some, to bytes. */
+/* Means with fraction_bits, of which there are some, on their way to bytes. */
 INLINE uint16x4_t sixteen_bits(int32x4_t means, int32x4_t shift)
 {
     return vqmovun_s32(vrshlq_s32(means, shift));
 }
 
+/* All that a step reads. */
+typedef struct {
+    ls_placer_t x, y;
+    const int32_t *coefficients;
+    ptrdiff_t stride;
+    int32x4_t shift;
+} ls_source_t;
+
+/* Where the coefficients and weights of PATCH_STEP points begin. */
+typedef struct {
+    uint32_t corner[PATCH_STEP], across[PATCH_STEP], down[PATCH_STEP];
+} ls_step_t;
+
+INLINE ls_step_t step_of(const ls_source_t *from, const int32_t *x_q18, const int32_t *y_q18, int32_t channels)
+{
+    const ls_places_t x = places_of(&from->x, x_q18), y = places_of(&from->y, y_q18);
+    const int32x4_t corner = vmlaq_n_s32(vmulq_n_s32(x.first, channels), y.first, (int32_t)from->stride);
+    ls_step_t step;
+    vst1q_u32(step.corner, vreinterpretq_u32_s32(corner));
+    vst1q_u32(step.across, vreinterpretq_u32_s32(x.weight));
+    vst1q_u32(step.down, vreinterpretq_u32_s32(y.weight));
+    return step;
+}
+
+INLINE void step_xrgb(uint8_t *out, const ls_source_t *from, const ls_step_t *step)
+{
+    uint16x4_t pixel[PATCH_STEP];
+    for (int i = 0; i < PATCH_STEP; i++) {
+        const int32x4_t across = vld1q_s32(from->x.weight + step->across[i]);
+        const int32x4_t down = vld1q_s32(from->y.weight + step->down[i]);
+        pixel[i] =
+            sixteen_bits(evaluate_xrgb(from->coefficients + step->corner[i], from->stride, across, down), from->shift);
+    }
+    vst1q_u8(out,
+             vcombine_u8(vqmovn_u16(vcombine_u16(pixel[0], pixel[1])), vqmovn_u16(vcombine_u16(pixel[2], pixel[3]))));
+}
+
+INLINE void step_gray(uint8_t *out, const ls_source_t *from, const ls_step_t *step)
+{
+    int64x2_t sums[PATCH_STEP];
+    for (int i = 0; i < PATCH_STEP; i++) {
+        const int32x4_t across = vld1q_s32(from->x.weight + step->across[i]);
+        const int32x4_t down = vld1q_s32(from->y.weight + step->down[i]);
+        sums[i] = evaluate_gray(from->coefficients + step->corner[i], from->stride, across, down);
+    }
+    const int32x4_t means = vcombine_s32(vshrn_n_s64(vpaddq_s64(sums[0], sums[1]), LS_WEIGHT_BITS),
+                                         vshrn_n_s64(vpaddq_s64(sums[2], sums[3]), LS_WEIGHT_BITS));
+    const uint16x4_t four = sixteen_bits(means, from->shift);
+    const uint8x8_t pixels = vqmovn_u16(vcombine_u16(four, four));
+    memcpy(out, &pixels, PATCH_STEP);
+}
+
 INLINE void evaluate_patch(const patch_t *patch, const ls_surface_t *surface, int32_t channels)
 {
-    const ls_axis_t *const x_axis = surface->x, *const y_axis = surface->y;
-    const ptrdiff_t stride = (ptrdiff_t)x_axis->coefficients * channels;
-    const int32x4_t shift = vdupq_n_s32(-surface->fraction_bits);
-    const int32_t *across = &x_axis->weight[0][0][0], *down = &y_axis->weight[0][0][0];
+    const ls_source_t from = {
+        placer_of(surface->x),
+        placer_of(surface->y),
+        surface->coefficients,
+        (ptrdiff_t)surface->x->coefficients * channels,
+        vdupq_n_s32(-surface->fraction_bits),
+    };
     for (int32_t r = 0; r < patch->height; r++) {
         const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
         uint8_t *out = patch->out + r * patch->stride;
         for (int32_t k = 0; k < patch->width; k += PATCH_STEP) {
             const int32_t at = step_begin(k, patch->width);
-            const ls_places_t x = places_of(x_axis, x_q18 + at), y = places_of(y_axis, y_q18 + at);
-            uint32_t corner[PATCH_STEP], x_row[PATCH_STEP], y_row[PATCH_STEP];
-            vst1q_u32(corner,
-                      vreinterpretq_u32_s32(vmlaq_n_s32(vmulq_n_s32(x.first, channels), y.first, (int32_t)stride)));
-            vst1q_u32(x_row, vreinterpretq_u32_s32(vshlq_n_s32(x.row, 2)));
-            vst1q_u32(y_row, vreinterpretq_u32_s32(vshlq_n_s32(y.row, 2)));
-            if (channels == 4) {
-                uint16x4_t pixel[PATCH_STEP];
-                for (int i = 0; i < PATCH_STEP; i++)
-                    pixel[i] = sixteen_bits(evaluate_xrgb(surface->coefficients + corner[i], stride,
-                                                          vld1q_s32(across + x_row[i]), vld1q_s32(down + y_row[i])),
-                                            shift);
-                vst1q_u8(out + (ptrdiff_t)at * 4, vcombine_u8(vqmovn_u16(vcombine_u16(pixel[0], pixel[1])),
-                                                              vqmovn_u16(vcombine_u16(pixel[2], pixel[3]))));
-            } else {
-                int64x2_t sums[PATCH_STEP];
-                for (int i = 0; i < PATCH_STEP; i++)
-                    sums[i] = evaluate_gray(surface->coefficients + corner[i], stride, vld1q_s32(across + x_row[i]),
-                                            vld1q_s32(down + y_row[i]));
-                const int32x4_t means = vcombine_s32(vshrn_n_s64(vpaddq_s64(sums[0], sums[1]), LS_WEIGHT_BITS),
-                                                     vshrn_n_s64(vpaddq_s64(sums[2], sums[3]), LS_WEIGHT_BITS));
-                const uint16x4_t four = sixteen_bits(means, shift);
-                const uint8x8_t pixels = vqmovn_u16(vcombine_u16(four, four));
-                memcpy(out + at, &pixels, PATCH_STEP);
-            }
+            const ls_step_t step = step_of(&from, x_q18 + at, y_q18 + at, channels);
+            if (channels == 4)
+                step_xrgb(out + (ptrdiff_t)at * 4, &from, &step);
+            else
+                step_gray(out + at, &from, &step);
         }
     }
 }
