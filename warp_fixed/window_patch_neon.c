@@ -6,7 +6,7 @@
 
 #include "warp_fixed/fixed.h"
 
-enum { COPY_ROWS = 72, VECTOR = 16, STRIP_VECTORS = 4 };
+enum { EDGE_WIDTH = 16, COPY_ROWS = 72, VECTOR = 16, STRIP_VECTORS = 4 };
 
 /* Texels that the windows of a patch read along one axis: [begin, end). */
 typedef struct {
@@ -173,10 +173,16 @@ static __attribute__((noinline)) void weigh_copy(const call_t *call, const patch
     weigh_in(call, patch, &source);
 }
 
+static bool fits_copy(const texels_t *texels, reach_t x, reach_t y)
+{
+    return vectors_of(texels, x) * VECTOR <= COPY_STRIDE && y.end - y.begin <= COPY_ROWS;
+}
+
+/* Two halves of a patch of more than one pixel; the longer side is cut. */
 static void halve(patch_t half[2], const patch_t *patch, int32_t pixel_bytes)
 {
     half[0] = half[1] = *patch;
-    if (patch->height > 1) {
+    if (patch->height >= patch->width) {
         const int32_t rows = patch->height / 2;
         half[0].height = rows;
         half[1].height -= rows;
@@ -193,22 +199,18 @@ static void halve(patch_t half[2], const patch_t *patch, int32_t pixel_bytes)
     }
 }
 
-/* Halves, ten times at most, until what a piece reads is inside the picture or can be copied. */
-static void weigh_pieces(const call_t *call, const patch_t *patch)
+/* A patch whose points are in the picture, in halves, ten times at most, until what a piece reads can be copied. */
+static void weigh_copies(const call_t *call, const patch_t *patch)
 {
-    const texels_t *texels = call->texels;
     const reach_t x = columns_of(call, patch), y = rows_of(call, patch);
-    if (!call->loop->centred && is_inside(x, texels->width) && is_inside(y, texels->height)) {
-        const window_source_t source = source_from(call, texels->data, texels->stride, 0, 0);
-        weigh_in(call, patch, &source);
-    } else if (vectors_of(texels, x) * VECTOR <= COPY_STRIDE && y.end - y.begin <= COPY_ROWS) {
+    if (fits_copy(call->texels, x, y)) {
         weigh_copy(call, patch, x, y);
-    } else {
-        patch_t half[2];
-        halve(half, patch, call->loop->pixel_bytes);
-        weigh_pieces(call, &half[0]);
-        weigh_pieces(call, &half[1]);
+        return;
     }
+    patch_t half[2];
+    halve(half, patch, call->loop->pixel_bytes);
+    weigh_copies(call, &half[0]);
+    weigh_copies(call, &half[1]);
 }
 
 static void clamp_points(int32_t *to, const int32_t *from, const patch_t *patch, int32_t size)
@@ -218,7 +220,7 @@ static void clamp_points(int32_t *to, const int32_t *from, const patch_t *patch,
             to[r * PATCH_MAX_WIDTH + k] = clamp_i32(from[r * PATCH_MAX_WIDTH + k], 0, size << GRID_FRACTION_BITS);
 }
 
-static __attribute__((noinline)) void weigh_clamped(const call_t *call, const patch_t *patch)
+static __attribute__((noinline)) void weigh_edge(const call_t *call, const patch_t *patch)
 {
     int32_t x_q18[PATCH_MAX_HEIGHT * PATCH_MAX_WIDTH], y_q18[PATCH_MAX_HEIGHT * PATCH_MAX_WIDTH];
     patch_t clamped = *patch;
@@ -226,16 +228,33 @@ static __attribute__((noinline)) void weigh_clamped(const call_t *call, const pa
     clamp_points(y_q18, patch->y_q18, patch, call->texels->height);
     clamped.x_q18 = x_q18;
     clamped.y_q18 = y_q18;
-    weigh_pieces(call, &clamped);
+    weigh_copies(call, &clamped);
+}
+
+/* Halves, so that little of a patch counts as edge. */
+static void weigh_pieces(const call_t *call, const patch_t *patch)
+{
+    const texels_t *texels = call->texels;
+    const bool inside =
+        is_inside(columns_of(call, patch), texels->width) && is_inside(rows_of(call, patch), texels->height);
+    if (inside && call->loop->centred) {
+        weigh_copies(call, patch);
+    } else if (inside) {
+        const window_source_t source = source_from(call, texels->data, texels->stride, 0, 0);
+        weigh_in(call, patch, &source);
+    } else if (patch->width <= EDGE_WIDTH) {
+        weigh_edge(call, patch);
+    } else {
+        patch_t half[2];
+        halve(half, patch, call->loop->pixel_bytes);
+        weigh_pieces(call, &half[0]);
+        weigh_pieces(call, &half[1]);
+    }
 }
 
 void weigh_anywhere(const patch_t *patch, const window_t *window, const texels_t *texels, const patch_loop_t *loop)
 {
-    if (patch->width == 0 || patch->height == 0)
-        return;
     const call_t call = {window, texels, loop};
-    if (is_inside(columns_of(&call, patch), texels->width) && is_inside(rows_of(&call, patch), texels->height))
+    if (patch->width > 0 && patch->height > 0)
         weigh_pieces(&call, patch);
-    else
-        weigh_clamped(&call, patch);
 }
