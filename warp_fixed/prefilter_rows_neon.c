@@ -78,15 +78,18 @@ static inline row_out_t next_step(row_out_t out)
 static inline __attribute__((always_inline)) void store_row(row_out_t out, row_sums_t sums)
 {
     _Static_assert(FILTER_SUM_LOG2 + FILTER_FIRST_BITS - COEFFICIENT_BITS == 16, "what is narrowed are coefficients");
+    int16x8_t narrow[VECTORS];
     for (int i = 0; i < VECTORS; i++) {
         const sums_t eight = sums.eight[i];
+        narrow[i] = out.to_bytes ? vcombine_s16(vshrn_n_s32(eight.low, 16), vshrn_n_s32(eight.high, 16))
+                                 : vcombine_s16(vrshrn_n_s32(eight.low, 16), vrshrn_n_s32(eight.high, 16));
+    }
+    for (int i = 0; i < VECTORS; i++) {
         if (out.to_bytes) {
-            const int16x8_t exact = vcombine_s16(vshrn_n_s32(eight.low, 16), vshrn_n_s32(eight.high, 16));
-            const int16x8_t grey = vaddq_s16(exact, vdupq_n_s16(COEFFICIENT_MIDDLE << COEFFICIENT_BITS));
+            const int16x8_t grey = vaddq_s16(narrow[i], vdupq_n_s16(COEFFICIENT_MIDDLE << COEFFICIENT_BITS));
             vst1_u8(out.bytes + i * SUM_LANES, vqrshrun_n_s16(grey, COEFFICIENT_BITS));
         } else {
-            vst1q_s16(out.coefficients + i * SUM_LANES,
-                      vcombine_s16(vrshrn_n_s32(eight.low, 16), vrshrn_n_s32(eight.high, 16)));
+            vst1q_s16(out.coefficients + i * SUM_LANES, narrow[i]);
         }
     }
 }

@@ -16,13 +16,12 @@ typedef struct {
 
 static inline sums_t product(int16x8_t values, int16_t weight)
 {
-    return (sums_t){vmull_s16(vget_low_s16(values), vdup_n_s16(weight)), vmull_high_s16(values, vdupq_n_s16(weight))};
+    return (sums_t){vmull_n_s16(vget_low_s16(values), weight), vmull_high_s16(values, vdupq_n_s16(weight))};
 }
 
 static inline sums_t add_product(sums_t sums, int16x8_t values, int16_t weight)
 {
-    return (sums_t){vmlal_s16(sums.low, vget_low_s16(values), vdup_n_s16(weight)),
-                    vmlal_high_s16(sums.high, values, vdupq_n_s16(weight))};
+    return (sums_t){vmlal_n_s16(sums.low, vget_low_s16(values), weight), vmlal_high_n_s16(sums.high, values, weight)};
 }
 
 #endif
