@@ -3,7 +3,7 @@
 //
 // A row of the panel is first clipped to its lit pixels. Within it, each aligned block of 2^n pixels has one exact
 // point, in its middle; the others follow from it by a quadratic, evaluated with integer forward differences. n is
-// chosen per row from a proved bound, so that a point errs by less than 1/256 px (see the proof in the .c file).
+// chosen per row from a proved bound, so that a point errs by less than 1/256 px (see the proof in grid_row.c).
 // A point depends on its pixel and the homography only, never on the order in which pixels are visited.
 #ifndef WARP_FIXED_GRID_FROM_HOMOGRAPHY_H
 #define WARP_FIXED_GRID_FROM_HOMOGRAPHY_H

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points of a row of the grid: a block's middle in 64-bit integers, the rest in lanes: both coordinates, four points.
 //
-// What grid_row.c says of a block, line by line, where all of it fits into 32 bits; see there for names and why.
+// What grid_row.c says of a block, line by line, where all of it fits into 32 bits; see there for names and why. A
+// point and a step to the next one are between those at the row's ends, which fit; what they are summed up from may
+// wrap.
 #include "warp_fixed/kernels_neon.h"
 #include "warp_fixed/kernels_scalar.h"
 #include "warp_fixed/neon.h"
@@ -130,7 +132,8 @@ void grid_points_neon(int32_t *restrict x_q18, int32_t *restrict y_q18, const gr
     }
     const int span_log2 = row->row.span_log2;
     int32_t block_end = grid_row_block_end(row->row, begin);
-    if (block_end == end) { /* most often so in gentle perspective: then nothing of the row need be kept at hand */
+    if (begin < end &&
+        block_end == end) { /* most often so in gentle perspective: then nothing of the row need be kept at hand */
         block_points(x_q18, y_q18, block_quadratics(row, begin, end, span_log2), end - begin);
         return;
     }

@@ -8,7 +8,7 @@
 /** 1 / w = reciprocal * 2^(zeros - 95), but for 2^-31 of it; 2^31 < reciprocal <= 2^32. */
 typedef struct {
     int64_t reciprocal;
-    int zeros; /**< leading ones of w, 3 to 63 */
+    int zeros; /**< leading zero bits of w, 3 to 63 */
 } reciprocal_t;
 
 enum { RECIPROCAL_SHIFT = 95 };

@@ -157,8 +157,8 @@ static int least_of(int a, int b)
 }
 
 /*
- * Vector code takes products' upper 64 bits: floor(value R' / 2^64), where R' = R 2^(z - lift); the result is
- * half of that. So values are lifted until point_shift - z = 65 - (z - lift).
+ * Vector code takes the upper 64 bits of numerator * (R << (z - lift)), and half of that. So numerators are shifted to
+ * the left until 65 - (z - lift) is what the quotient is shifted by, point_shift - z. @return Is there room for that?
  */
 static bool lift_row(grid_row_cursor_t *row)
 {

@@ -15,8 +15,7 @@
 /**
  * One coordinate along a row, U = 2 i + 1 being the centre of a pixel in half pixels.
  *
- * With R and z of w's reciprocal (grid_quotient.h) a point is (by_u U + at_zero) R / 2^(point_shift - z) in Q18, and
- * its change per pixel (slope R / 2^32) R / 2^(slope_shift - 2 z) in Q24.
+ * With R and z of w's reciprocal (grid_quotient.h), a point is (by_u U + at_zero) R / 2^(point_shift - z) in Q18.
  */
 typedef struct {
     int64_t by_u, at_zero;
@@ -29,9 +28,9 @@ typedef struct {
     grid_row_t row;
     grid_row_axis_t x, y;
     int64_t w_by_u, w_at_zero;
-    int64_t turn; /**< relative change of w per pixel: turn R / 2^(turn_shift - z) in Q32; 0 where blocks are pixels */
+    int64_t turn; /**< w's relative change per pixel is turn R / 2^(turn_shift - z) in Q32; 0 for blocks of one pixel */
     int32_t turn_shift;
-    int32_t lift; /**< for row.fits_32: points and turn are to be shifted by 64 bits, if R is by z - lift to the left */
+    int32_t lift; /**< where row.fits_32: twice a point or turn is its numerator * (R << (z - lift)) >> 64 */
 } grid_row_cursor_t;
 
 /** Points of one block: x(k) = x + k dx + k (k - 1) / 2 ddx, in Q18 picture pixels, modulo 2^32; y likewise. */
@@ -43,7 +42,7 @@ typedef struct {
 /** @return What the pixels of row j share. Of no use where none is lit. */
 grid_row_cursor_t grid_row_cursor(const grid_t *grid, int32_t j);
 
-/** Choose the length of blocks of row j, which has lit pixels: the rest of its entry in the grid. */
+/** Complete the grid's entry of row j, whose lit pixels are known, and some: length of blocks, size of numbers. */
 void grid_row_plan(grid_t *grid, int32_t j);
 
 /** @return One past the last lit pixel of the block that holds lit pixel i. */

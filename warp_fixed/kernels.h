@@ -18,7 +18,8 @@
  *
  * @param[out] x_q18, y_q18  end - begin points.
  * @param      row           grid_row_cursor().
- * @param      begin, end    Lit pixels: multiples of GRID_MAX_SPAN, or where the row's lit pixels begin and end.
+ * @param      begin, end    Lit pixels; each a multiple of the length of the row's blocks, as multiples of
+ * GRID_MAX_SPAN are, or where the lit pixels begin and end.
  */
 typedef void grid_points_fn(int32_t *restrict x_q18, int32_t *restrict y_q18, const grid_row_cursor_t *row,
                             int32_t begin, int32_t end);

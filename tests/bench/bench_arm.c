@@ -4,7 +4,7 @@
 // usage: bench_arm CASE FORMAT POSE KERNELS    prints over how many pixels the work is to be divided
 //
 // Picture and poses are those of workload.h. What is between the markers:
-//   grid            grid_from_homography(), then grid_block() and the points of every lit pixel, stored;
+//   grid            grid_from_homography(), then the points of every lit pixel, 64 columns at a time, stored;
 //   gauss, kaiser   prefilter_coefficients() of the picture with 7 taps, known before;
 //   all others      warp_frame() of the method. bench_arm.sh leaves parts of it out, but not for frame:*.
 #include <stdio.h>

@@ -15,7 +15,7 @@
 #include "tests/support/oracle.h"
 #include "warp_fixed/kernels.h"
 
-/* The contract is 1/256; this is what grid_from_homography.c proves. */
+/* The contract is 1/256; this is what grid_row.c proves. */
 static const double grid_error_limit_px = 0.0022;
 static grid_t grid;
 
