@@ -25,6 +25,7 @@ PROGRAMS := wallwarp wallwarp-sim wallwarp-eval wallwarp-pose
 MAINS    := firmware/main.c sim/wallwarp_sim.c sim/wallwarp_eval.c sim/wallwarp_pose.c
 
 WARP_C     := $(wildcard warp_fixed/*.c)
+HAL_C      := hal/linux/workers_pthread.c
 FIRMWARE_C := $(filter-out $(MAINS),$(wildcard firmware/*.c firmware/*/*.c))
 SIM_C      := $(filter-out $(MAINS),$(wildcard sim/*.c sim/*/*.c))
 TESTS_C    := $(wildcard tests/*/test_*.c tests/*/*/test_*.c)
@@ -81,11 +82,12 @@ $(BUILD)/lib$(1).a: $(call objects,$(2))
 	$(Q)rm -f $$@ && $$(AR) rcsP $$@ $$^
 endef
 $(eval $(call archive,warp,$(WARP_C)))
+$(eval $(call archive,hal,$(HAL_C)))
 $(eval $(call archive,firmware,$(FIRMWARE_C)))
 $(eval $(call archive,sim,$(SIM_C) $(wildcard sim/*/*.S)))
 $(eval $(call archive,support,$(SUPPORT_C)))
 
-LIBS := $(BUILD)/libsim.a $(BUILD)/libfirmware.a $(BUILD)/libwarp.a
+LIBS := $(BUILD)/libsim.a $(BUILD)/libfirmware.a $(BUILD)/libhal.a $(BUILD)/libwarp.a
 
 define link
 	@mkdir -p $(@D)
@@ -149,6 +151,11 @@ sanitize: setup-test ## Run the unit tests again with the address and undefined-
 .PHONY: run-unit-tests
 run-unit-tests: $(TESTS) $(CHECK_KERNELS)
 	$(Q)tests/run.sh $(BUILD)/test-logs $(foreach t,$(TESTS) $(CHECK_KERNELS),'$(t)')
+
+.PHONY: sanitize-threads
+sanitize-threads: setup-test ## Run the workers' test with the thread sanitizer
+	$(Q)$(MAKE) --no-print-directory BUILD=build/sanitize-threads OPT='-O1 -fsanitize=thread' \
+	    TESTS_C=tests/hal/linux/test_workers_pthread.c CHECK_KERNELS= run-unit-tests
 
 # --- benchmarks ------------------------------------------------------------------------------------------------------
 

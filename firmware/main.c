@@ -9,7 +9,7 @@
 #include "firmware/room.h"
 #include "hal/hal_board.h"
 
-enum { FAILED = 1, BAD_USAGE = 2, KEY_CAN = 256, KEY_CAMERA, KEY_DISPLAY, KEY_KERNELS };
+enum { FAILED = 1, BAD_USAGE = 2, KEY_CAN = 256, KEY_CAMERA, KEY_DISPLAY, KEY_KERNELS, KEY_WORKERS };
 
 typedef struct {
     const char *room;
@@ -24,6 +24,7 @@ static const struct argp_option option_table[] = {
     {"camera", KEY_CAMERA, "NAME", 0, "Video source, in place of the board's own", 0},
     {"display", KEY_DISPLAY, "NAME", 0, "Display, in place of the board's own", 0},
     {"kernels", KEY_KERNELS, "LEVEL", 0, "Pixel loops: scalar or neon, of the same bytes (default: the fastest)", 0},
+    {"workers", KEY_WORKERS, "N", 0, "Threads that make a picture together, 1 to 4, in place of the board's own", 0},
     {0},
 };
 
@@ -35,18 +36,26 @@ static void request_stop(int signal_number)
     stop_requested = 1;
 }
 
+/* A number from 1 to the largest; anything else ends the program. */
+static int32_t read_number(struct argp_state *state, const char *option, const char *text, int32_t largest)
+{
+    char *end;
+    const long number = strtol(text, &end, 10);
+    if (end == text || *end != '\0' || number < 1 || number > largest)
+        argp_error(state, "--%s: found \"%s\", expected 1 to %d", option, text, largest);
+    return (int32_t)number;
+}
+
 static error_t read_option(int key, char *text, struct argp_state *state)
 {
     options_t *options = state->input;
-    char *end;
     switch (key) {
-    case 'n': {
-        const long node = strtol(text, &end, 10);
-        if (end == text || *end != '\0' || node < 1 || node > ROOM_MAX_NODE)
-            argp_error(state, "--node: found \"%s\", expected 1 to %d", text, ROOM_MAX_NODE);
-        options->node = (int32_t)node;
+    case 'n':
+        options->node = read_number(state, "node", text, ROOM_MAX_NODE);
         return 0;
-    }
+    case KEY_WORKERS:
+        options->devices.workers.count = read_number(state, "workers", text, HAL_WORKERS_MAX);
+        return 0;
     case KEY_CAN:
         options->devices.can = text;
         return 0;

@@ -3,6 +3,7 @@
 #include "firmware/projector.h"
 
 #include "firmware/safe_picture.h"
+#include "firmware/warp_steps.h"
 
 _Static_assert((int)LADDER_STEPS <= (int)DEGRADE_MAX_STEPS, "every ladder must fit");
 
@@ -83,8 +84,12 @@ static bool draw_corrected(projector_t *p, const image_t *panel)
 {
     homography_t homography;
     p->report.pose = p->poses.newest;
-    return homography_from_pose(&homography, &p->camera, &p->wall, &p->report.pose.pose) &&
-           warp_frame(&p->warp, p->kernels, &p->report.warp, &homography, panel, &p->picture.image);
+    const picture_t to = picture_from_image(panel), from = picture_from_image(&p->picture.image);
+    if (!homography_from_pose(&homography, &p->camera, &p->wall, &p->report.pose.pose) ||
+        !warp_plan(&p->warp, p->kernels, &p->report.warp, &homography, &to, &from))
+        return false;
+    warp_steps_run(&p->warp, p->board.workers);
+    return true;
 }
 
 static void draw(projector_t *p, const image_t *panel)

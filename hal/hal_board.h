@@ -13,6 +13,7 @@
 #include "hal/hal_status.h"
 #include "hal/hal_time.h"
 #include "hal/hal_watchdog.h"
+#include "hal/hal_workers.h"
 
 enum { HAL_BOARD_ERROR_LENGTH = 256 };
 
@@ -24,7 +25,8 @@ typedef struct {
     hal_gpio_t *gpio;
     hal_time_t *clock;
     hal_watchdog_t *watchdog;
-    void *own; /**< what the HAL keeps behind its devices, or NULL */
+    hal_workers_t *workers; /**< NULL: the loop's thread alone */
+    void *own;              /**< what the HAL keeps behind its devices, or NULL */
 } hal_board_t;
 
 /** What a board is made of: one constant of this type in board/NAME/board.c. Names are the HAL's own. */
@@ -33,6 +35,7 @@ typedef struct {
     const char *can;     /**< bus: an interface (can0), or in the simulator a port of 127.0.0.1 */
     const char *camera;  /**< video source: a device, or in the simulator a picture or video file, or "pattern" */
     const char *display; /**< where pictures go: a connector, or in the simulator a folder, or "none" */
+    hal_workers_settings_t workers; /**< threads that make a picture together */
 } board_table_t;
 
 extern const board_table_t board_table;

@@ -19,7 +19,8 @@
 enum { REFRESH_HZ = 60, WATCHDOG_US = 2000000, PICTURE_PERIOD_US = 1000000, LAST_PORT = 65535 };
 
 _Static_assert((int)HAL_BOARD_ERROR_LENGTH >= (int)FILE_ERROR_LENGTH &&
-                   (int)HAL_BOARD_ERROR_LENGTH >= (int)SOCKETCAND_ERROR_LENGTH,
+                   (int)HAL_BOARD_ERROR_LENGTH >= (int)SOCKETCAND_ERROR_LENGTH &&
+                   (int)HAL_BOARD_ERROR_LENGTH >= (int)HAL_WORKERS_ERROR_LENGTH,
                "what the devices say of a failure must fit what hal_board_open() is given");
 
 typedef struct {
@@ -148,7 +149,8 @@ hal_status_t hal_board_open(hal_board_t *board, const board_table_t *table, cons
               open_display(b, table, needs, error);
     b->devices.gpio = ok ? sim_gpio_create(b->devices.clock, error) : NULL;
     b->devices.watchdog = b->devices.gpio == NULL ? NULL : sim_watchdog_create(b->devices.clock, WATCHDOG_US, error);
-    if (b->devices.watchdog == NULL) {
+    ok = b->devices.watchdog != NULL && hal_workers_open(&b->devices.workers, &table->workers, error) == HAL_OK;
+    if (!ok) {
         hal_board_close(&b->devices);
         return HAL_IO;
     }
@@ -160,6 +162,7 @@ hal_status_t hal_board_open(hal_board_t *board, const board_table_t *table, cons
 void hal_board_close(hal_board_t *board)
 {
     bench_t *b = board->own;
+    hal_workers_close(board->workers);
     sim_watchdog_destroy(board->watchdog);
     sim_gpio_destroy(board->gpio);
     sim_display_destroy(board->display);

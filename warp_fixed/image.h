@@ -11,6 +11,7 @@ enum { IMAGE_MAX_WIDTH = 4096, IMAGE_MAX_HEIGHT = 2160 };
 /** The value of each format is its number of bytes, and of 8-bit channels, per pixel. */
 typedef enum {
     IMAGE_GRAY8 = 1,   /**< one luma byte per pixel */
+    IMAGE_UV88 = 2,    /**< bytes U, V: the chroma of a picture, with pixels of its own size */
     IMAGE_XRGB8888 = 4 /**< bytes B, G, R, X in memory (DRM's XRGB8888, little endian); X is carried, not shown */
 } image_format_t;
 

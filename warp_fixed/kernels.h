@@ -8,6 +8,7 @@
 
 #include <stdint.h>
 
+#include "warp_fixed/color.h"
 #include "warp_fixed/grid_row.h"
 #include "warp_fixed/image.h"
 #include "warp_fixed/ls_axis.h"
@@ -96,7 +97,7 @@ typedef void filter_columns_fn(int16_t *const v[FILTER_ROWS], const uint8_t *con
  * @param[out] out       count coefficients.
  * @param      v         With r, the radius, at least FILTER_SLACK: v[-r * channels] to v[count + r * channels - 1] are
  *                       readable.
- * @param      channels  Distance between neighbours of one channel: 1 or 4.
+ * @param      channels  Distance between neighbours of one channel: 1, 2 or 4.
  */
 typedef void filter_row_fn(int16_t *restrict out, const int16_t *restrict v, const fir_t *fir, int32_t count,
                            int32_t channels);
@@ -160,21 +161,46 @@ typedef struct {
  */
 typedef void resample_ls_fn(const patch_t *patch, const ls_surface_t *surface);
 
+/**
+ * Take a row of YUYV or UYVY (picture.h) apart.
+ *
+ * @param[out] luma    2 * pairs bytes.
+ * @param[out] chroma  2 * pairs bytes: U, V in turn.
+ * @param      from    4 * pairs bytes.
+ */
+typedef void planes_from_row_fn(uint8_t *restrict luma, uint8_t *restrict chroma, const uint8_t *restrict from,
+                                int32_t pairs);
+
+/** Put a row of YUYV together; sizes as above. */
+typedef void row_from_planes_fn(uint8_t *restrict out, const uint8_t *restrict luma, const uint8_t *restrict chroma,
+                                int32_t pairs);
+
+/** Put a row of XRGB8888 together, 8 * pairs bytes, by color.h; X is 0. Both pixels of a pair have its chroma. */
+typedef void xrgb_from_yuv_fn(uint8_t *restrict out, const uint8_t *restrict luma, const uint8_t *restrict chroma,
+                              const color_matrix_t *matrix, int32_t pairs);
+
+/** Make XRGB8888 of a row of RGB888 or BGR888 (picture.h); X is 0. */
+typedef void xrgb_from_row_fn(uint8_t *restrict out, const uint8_t *restrict from, int32_t count);
+
 /** The loops of one CPU level. */
 typedef struct {
     const char *name;
     grid_points_fn *grid_points;
-    resample_nearest_fn *nearest_gray, *nearest_xrgb;
-    resample_window_fn *window_gray, *window_xrgb;
-    resample_window_fn *coefficients_gray, *coefficients_xrgb;
+    resample_nearest_fn *nearest_gray, *nearest_chroma, *nearest_xrgb;
+    resample_window_fn *window_gray, *window_chroma, *window_xrgb;
+    resample_window_fn *coefficients_gray, *coefficients_chroma, *coefficients_xrgb;
     filter_columns_fn *filter_columns;
     filter_row_fn *filter_row;
     filter_row_bytes_fn *filter_row_bytes;
-    ls_pixels_fn *ls_pixels_gray, *ls_pixels_xrgb;
+    ls_pixels_fn *ls_pixels_gray, *ls_pixels_chroma, *ls_pixels_xrgb;
     ls_scale_fn *ls_scale;
     ls_forward_fn *ls_forward;
     ls_backward_fn *ls_backward;
-    resample_ls_fn *ls_gray, *ls_xrgb;
+    resample_ls_fn *ls_gray, *ls_chroma, *ls_xrgb;
+    planes_from_row_fn *planes_from_yuyv, *planes_from_uyvy;
+    row_from_planes_fn *yuyv_from_planes;
+    xrgb_from_yuv_fn *xrgb_from_yuv;
+    xrgb_from_row_fn *xrgb_from_rgb888, *xrgb_from_bgr888;
 } warp_kernels_t;
 
 /** Plain C: the definition of every loop. */

@@ -7,20 +7,31 @@
 
 grid_points_fn grid_points_scalar;
 resample_nearest_fn resample_nearest_gray_scalar;
+resample_nearest_fn resample_nearest_chroma_scalar;
 resample_nearest_fn resample_nearest_xrgb_scalar;
 resample_window_fn resample_window_gray_scalar;
+resample_window_fn resample_window_chroma_scalar;
 resample_window_fn resample_window_xrgb_scalar;
 resample_window_fn resample_coefficients_gray_scalar;
+resample_window_fn resample_coefficients_chroma_scalar;
 resample_window_fn resample_coefficients_xrgb_scalar;
 filter_columns_fn filter_columns_scalar;
 filter_row_fn filter_row_scalar;
 filter_row_bytes_fn filter_row_bytes_scalar;
 ls_pixels_fn ls_pixels_gray_scalar;
+ls_pixels_fn ls_pixels_chroma_scalar;
 ls_pixels_fn ls_pixels_xrgb_scalar;
 ls_scale_fn ls_scale_scalar;
 ls_forward_fn ls_forward_scalar;
 ls_backward_fn ls_backward_scalar;
 resample_ls_fn resample_ls_gray_scalar;
+resample_ls_fn resample_ls_chroma_scalar;
 resample_ls_fn resample_ls_xrgb_scalar;
+planes_from_row_fn planes_from_yuyv_scalar;
+planes_from_row_fn planes_from_uyvy_scalar;
+row_from_planes_fn yuyv_from_planes_scalar;
+xrgb_from_yuv_fn xrgb_from_yuv_scalar;
+xrgb_from_row_fn xrgb_from_rgb888_scalar;
+xrgb_from_row_fn xrgb_from_bgr888_scalar;
 
 #endif

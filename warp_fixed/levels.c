@@ -11,20 +11,18 @@ static int32_t reduced(int32_t size, int level)
     return (size + (1 << (SHIFT * level)) - 1) >> (SHIFT * level);
 }
 
-ptrdiff_t levels_offset(int level_x, int level_y)
+/* Channels of a level at its largest. */
+static ptrdiff_t largest(int level_x, int level_y)
 {
-    ptrdiff_t offset = 0;
-    for (int level = 1; level < level_x * LEVELS + level_y; level++)
-        offset += (ptrdiff_t)IMAGE_XRGB8888 * reduced(IMAGE_MAX_WIDTH, level / LEVELS) *
-                  reduced(IMAGE_MAX_HEIGHT, level % LEVELS);
-    return offset;
+    return (ptrdiff_t)IMAGE_XRGB8888 * reduced(IMAGE_MAX_WIDTH, level_x) * reduced(IMAGE_MAX_HEIGHT, level_y);
 }
 
-void levels_begin(levels_t *levels)
+ptrdiff_t levels_offset(level_t level)
 {
-    for (int level_x = 0; level_x < LEVELS; level_x++)
-        for (int level_y = 0; level_y < LEVELS; level_y++)
-            levels->made[level_x][level_y] = false;
+    ptrdiff_t offset = level.plane * largest(level.x, level.y) / 2;
+    for (int lower = 1; lower < level.x * LEVELS + level.y; lower++)
+        offset += largest(lower / LEVELS, lower % LEVELS);
+    return offset;
 }
 
 /* Add texels [begin, end) of a row, mirrored beyond its end, to each channel's sum. */
@@ -34,6 +32,10 @@ static void add_texels(uint32_t sum[4], const uint8_t *row, const image_t *pictu
     if (channels == 1) {
         for (int32_t u = begin; u < within; u++)
             sum[0] += row[u];
+    } else if (channels == 2) {
+        for (int32_t u = begin; u < within; u++)
+            for (int c = 0; c < 2; c++)
+                sum[c] += row[2 * u + c];
     } else {
         for (int32_t u = begin; u < within; u++)
             for (int c = 0; c < 4; c++)
@@ -55,20 +57,25 @@ static void box_mean(uint8_t *mean, const image_t *picture, int32_t x, int32_t y
         mean[c] = (uint8_t)((sum[c] + (1u << log2 >> 1)) >> log2);
 }
 
-image_t levels_picture(levels_t *levels, const image_t *picture, int level_x, int level_y)
+image_t levels_picture(levels_t *levels, const image_t *picture, level_t level)
 {
-    if (level_x == 0 && level_y == 0)
+    if (level.x == 0 && level.y == 0)
         return *picture;
-    image_t level = {levels->pixels + levels_offset(level_x, level_y), reduced(picture->width, level_x),
-                     reduced(picture->height, level_y), 0, picture->format};
-    level.stride = level.width * (int32_t)level.format;
-    if (levels->made[level_x][level_y])
-        return level;
-    for (int32_t y = 0; y < level.height; y++) {
-        uint8_t *row = image_row(&level, y);
-        for (int32_t x = 0; x < level.width; x++)
-            box_mean(row + x * (int32_t)level.format, picture, x, y, SHIFT * level_x, SHIFT * level_y);
+    image_t made = {levels->pixels + levels_offset(level), reduced(picture->width, level.x),
+                    reduced(picture->height, level.y), 0, picture->format};
+    made.stride = made.width * (int32_t)made.format;
+    return made;
+}
+
+void levels_make(levels_t *levels, const image_t *picture, level_t level, worker_t worker)
+{
+    if (level.x == 0 && level.y == 0)
+        return;
+    const image_t made = levels_picture(levels, picture, level);
+    const share_t rows = share_of(worker, made.height);
+    for (int32_t y = rows.begin; y < rows.end; y++) {
+        uint8_t *row = image_row(&made, y);
+        for (int32_t x = 0; x < made.width; x++)
+            box_mean(row + x * (int32_t)made.format, picture, x, y, SHIFT * level.x, SHIFT * level.y);
     }
-    levels->made[level_x][level_y] = true;
-    return level;
 }

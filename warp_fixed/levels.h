@@ -3,10 +3,10 @@
 #ifndef WARP_FIXED_LEVELS_H
 #define WARP_FIXED_LEVELS_H
 
-#include <stdbool.h>
 #include <stdint.h>
 
 #include "warp_fixed/image.h"
+#include "warp_fixed/workers.h"
 
 enum {
     LEVELS = 3, /**< per axis: 1, 1/8, 1/64 */
@@ -20,27 +20,31 @@ enum {
                         IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT)
 };
 
-/** The pictures made so far from this frame's picture. */
+/** The picture, or plane 0 or 1 of it, with x divided by 8^x and y by 8^y; 0 to LEVELS - 1. */
 typedef struct {
-    bool made[LEVELS][LEVELS]; /**< [x level][y level] */
+    int x, y;
+    int plane;
+} level_t;
+
+/** The smaller pictures of one frame's picture. */
+typedef struct {
     uint8_t pixels[LEVELS_BYTES];
 } levels_t;
 
 /**
  * @return Where the picture of a level lies among all but the first: after all lower ones at their largest sizes, in
- *         channels. Not for level 0 along both axes.
+ *         channels; plane 1, which has half the channels at most, in the second half of that place. Not for level 0
+ *         along both axes.
  */
-ptrdiff_t levels_offset(int level_x, int level_y);
+ptrdiff_t levels_offset(level_t level);
 
-/** Forget the last frame's pictures. */
-void levels_begin(levels_t *levels);
+/** @return A view into `levels`, where levels_make() writes; *picture itself when both levels are 0. */
+image_t levels_picture(levels_t *levels, const image_t *picture, level_t level);
 
 /**
- * The picture with x divided by 8^level_x and y by 8^level_y: means of its texels, rounded half up; texels beyond the
- * edge are mirrored. Made when first asked for in a frame: one pass over the picture.
- *
- * @return A view into `levels`, valid until levels_begin(); *picture itself when both levels are 0.
+ * Make a worker's rows of the picture at a level: means of its texels, rounded half up; texels beyond the edge are
+ * mirrored. One pass over the picture. Nothing to do when both levels are 0.
  */
-image_t levels_picture(levels_t *levels, const image_t *picture, int level_x, int level_y);
+void levels_make(levels_t *levels, const image_t *picture, level_t level, worker_t worker);
 
 #endif

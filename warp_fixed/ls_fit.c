@@ -48,78 +48,144 @@ void ls_weights_init(ls_weights_t *weights)
 void ls_init(ls_t *ls)
 {
     ls_weights_init(&ls->weights);
-    ls_axis_init(&ls->x);
-    ls_axis_init(&ls->y);
+    for (int plane = 0; plane < LS_PLANES; plane++) {
+        ls_axis_init(&ls->plane[plane].x);
+        ls_axis_init(&ls->plane[plane].y);
+    }
 }
 
 void ls_set_weights(ls_t *ls, const ls_weights_t *weights)
 {
     ls->weights = *weights;
-    ls_axis_init(&ls->x);
-    ls_axis_init(&ls->y);
+    for (int plane = 0; plane < LS_PLANES; plane++) {
+        ls_axis_init(&ls->plane[plane].x);
+        ls_axis_init(&ls->plane[plane].y);
+    }
 }
 
-static void begin_strip(ls_t *ls, const ls_axis_t *axis)
+/* What the strips of one axis share, for one worker. */
+typedef struct {
+    const ls_axis_t *axis;
+    ls_strip_t *strip;
+    const warp_kernels_t *kernels;
+    int32_t *coefficients;
+} fit_t;
+
+/* Where a plane begins: the second one has half of the channels at most. */
+static ptrdiff_t plane_offset(int plane)
 {
-    memset(ls->strip, 0, sizeof(int32_t) * LS_LANES * (size_t)(axis->coefficients + LS_TAPS - 1));
+    return (ptrdiff_t)plane * IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT * IMAGE_XRGB8888 / 2;
 }
 
-static void take_equation(ls_t *ls, const warp_kernels_t *kernels, const ls_equation_t *equation, const int32_t *data)
+static void begin_strip(const fit_t *fit)
 {
-    kernels->ls_forward(ls->strip + equation->first * LS_LANES, data, equation);
+    memset(fit->strip->lane, 0, sizeof(int32_t) * LS_LANES * (size_t)(fit->axis->coefficients + LS_TAPS - 1));
+}
+
+static void take_equation(const fit_t *fit, int32_t number, const int32_t *data)
+{
+    const ls_equation_t *equation = &fit->axis->equation[number];
+    fit->kernels->ls_forward(fit->strip->lane + equation->first * LS_LANES, data, equation);
 }
 
 /* Equations without data, of axes below 4 pixels, then the coefficients. */
-static void end_strip(ls_t *ls, const warp_kernels_t *kernels, const ls_axis_t *axis)
+static void end_strip(const fit_t *fit)
 {
     const int32_t nothing[LS_LANES] = {0};
-    for (int32_t i = axis->knots.size; i < axis->equations; i++)
-        take_equation(ls, kernels, &axis->equation[i], nothing);
-    for (int32_t j = axis->coefficients - 1; j >= 0; j--)
-        kernels->ls_backward(ls->strip + j * LS_LANES, &axis->solution[j]);
+    for (int32_t i = fit->axis->knots.size; i < fit->axis->equations; i++)
+        take_equation(fit, i, nothing);
+    for (int32_t j = fit->axis->coefficients - 1; j >= 0; j--)
+        fit->kernels->ls_backward(fit->strip->lane + j * LS_LANES, &fit->axis->solution[j]);
 }
 
 /* A solved strip -> coefficients of picture rows [y, end). Always inlined with a constant number of channels. */
-static inline void store_rows(ls_t *ls, int32_t y, int32_t end, int32_t channels)
+static inline void store_rows(const fit_t *fit, int32_t y, int32_t end, int32_t channels)
 {
-    const ptrdiff_t stride = (ptrdiff_t)ls->x.coefficients * channels;
+    const ptrdiff_t stride = (ptrdiff_t)fit->axis->coefficients * channels;
     for (int32_t row = y; row < end; row++) {
-        int32_t *to = ls->coefficients + row * stride;
-        const int32_t *from = ls->strip + (row - y) * channels;
-        for (int32_t j = 0; j < ls->x.coefficients; j++)
+        int32_t *to = fit->coefficients + row * stride;
+        const int32_t *from = fit->strip->lane + (row - y) * channels;
+        for (int32_t j = 0; j < fit->axis->coefficients; j++)
             memcpy(to + j * channels, from + j * LS_LANES, (size_t)channels * sizeof *to);
     }
 }
 
-/* Picture rows [y, end) -> rows of coefficients. Lanes are rows times channels; those to spare repeat the last row. */
-static void fit_rows(ls_t *ls, const warp_kernels_t *kernels, const image_t *picture, int32_t y, int32_t end)
+static ls_pixels_fn *pixels_loop(const warp_kernels_t *kernels, image_format_t format)
 {
-    const bool gray = picture->format == IMAGE_GRAY8;
-    ls_pixels_fn *const take_pixels = gray ? kernels->ls_pixels_gray : kernels->ls_pixels_xrgb;
+    return format == IMAGE_GRAY8  ? kernels->ls_pixels_gray
+           : format == IMAGE_UV88 ? kernels->ls_pixels_chroma
+                                  : kernels->ls_pixels_xrgb;
+}
+
+/* Picture rows [y, end) -> rows of coefficients. Lanes are rows times channels; those to spare repeat the last row. */
+static void fit_strip_of_rows(const fit_t *fit, const image_t *picture, int32_t y, int32_t end)
+{
+    ls_pixels_fn *const take_pixels = pixels_loop(fit->kernels, picture->format);
     const uint8_t *rows[LS_LANES];
     for (int32_t i = 0; i < LS_LANES; i++)
         rows[i] = image_row(picture, y + i < end ? y + i : end - 1);
     int32_t data[LS_LANES];
-    begin_strip(ls, &ls->x);
+    begin_strip(fit);
     for (int32_t x = 0; x < picture->width; x++) {
         take_pixels(data, rows, x);
-        take_equation(ls, kernels, &ls->x.equation[x], data);
+        take_equation(fit, x, data);
     }
-    end_strip(ls, kernels, &ls->x);
-    if (gray)
-        store_rows(ls, y, end, IMAGE_GRAY8);
+    end_strip(fit);
+    if (picture->format == IMAGE_GRAY8)
+        store_rows(fit, y, end, IMAGE_GRAY8);
+    else if (picture->format == IMAGE_UV88)
+        store_rows(fit, y, end, IMAGE_UV88);
     else
-        store_rows(ls, y, end, IMAGE_XRGB8888);
+        store_rows(fit, y, end, IMAGE_XRGB8888);
 }
 
-/* Bits that leave every coefficient of both axes below 2^31. There are `count` of the rows. */
-static int32_t fraction_bits_for(const int32_t *rows, ptrdiff_t count)
+/* The largest magnitude of `count` coefficients. */
+static int32_t largest_of(const int32_t *rows, ptrdiff_t count)
 {
     int32_t largest = 0;
     for (ptrdiff_t i = 0; i < count; i++) {
         const int32_t magnitude = rows[i] < 0 ? -rows[i] : rows[i];
         largest = magnitude > largest ? magnitude : largest;
     }
+    return largest;
+}
+
+/* Solve an axis of a plane that has `step` pixels of the whole picture to one of its own. */
+static void update_axis(ls_axis_t *axis, int32_t size, int32_t step, const uint16_t *weight, int32_t k_q16)
+{
+    uint16_t own[LS_MAX_SIZE];
+    if (step != 1)
+        for (int32_t i = 0; i < size; i++)
+            own[i] = weight[i * step];
+    ls_axis_update(axis, size, k_q16, step != 1 ? own : weight);
+}
+
+void ls_begin(ls_t *ls, int plane, const image_t *picture, const image_t *whole, int32_t k_q16)
+{
+    update_axis(&ls->plane[plane].x, picture->width, whole->width / picture->width, ls->weights.x, k_q16);
+    update_axis(&ls->plane[plane].y, picture->height, whole->height / picture->height, ls->weights.y, k_q16);
+    for (int32_t w = 0; w < WORKERS_MAX; w++)
+        ls->strip[w].largest[plane] = 0;
+}
+
+void ls_fit_rows(ls_t *ls, const warp_kernels_t *kernels, int plane, const image_t *picture, worker_t worker)
+{
+    const int32_t rows = LS_LANES / (int32_t)picture->format, height = picture->height;
+    const share_t strips = share_of(worker, (height + rows - 1) / rows);
+    const fit_t fit = {&ls->plane[plane].x, &ls->strip[worker.index], kernels, ls->coefficients + plane_offset(plane)};
+    const int32_t begin = strips.begin * rows, end = strips.end * rows < height ? strips.end * rows : height;
+    for (int32_t y = begin; y < end; y += rows)
+        fit_strip_of_rows(&fit, picture, y, y + rows < height ? y + rows : height);
+    const ptrdiff_t stride = (ptrdiff_t)fit.axis->coefficients * (int32_t)picture->format;
+    fit.strip->largest[plane] = largest_of(fit.coefficients + begin * stride, (end - begin) * stride);
+}
+
+/* Bits that leave every coefficient of both axes below 2^31. */
+static int32_t fraction_bits_for(const ls_t *ls, int plane)
+{
+    int32_t largest = 0;
+    for (int32_t w = 0; w < WORKERS_MAX; w++)
+        largest = ls->strip[w].largest[plane] > largest ? ls->strip[w].largest[plane] : largest;
     int32_t bits = MOST_FRACTION_BITS;
     while (bits > 0 && (int64_t)largest * LARGEST_GROWTH >= (int64_t)1 << (31 + ROW_BITS - bits))
         bits--;
@@ -169,40 +235,50 @@ static void find_largest(int32_t largest[LS_LANES], const int32_t *column, ptrdi
     }
 }
 
-/* `lanes` columns of coefficients along x, `stride` to a row -> of both axes, with fraction_bits, in place. */
-static void fit_columns(ls_t *ls, const warp_kernels_t *kernels, int32_t *column, int32_t lanes, ptrdiff_t stride,
-                        int32_t fraction_bits)
+/* A strip of columns of coefficients along x, `stride` to a row -> of both axes, with fraction_bits, in place. */
+static void fit_strip_of_columns(const fit_t *fit, int32_t first, int32_t stride, int32_t fraction_bits)
 {
+    const int32_t lanes = stride - first < LS_LANES ? stride - first : LS_LANES, size = fit->axis->knots.size;
+    int32_t *column = fit->coefficients + first;
     int32_t largest[LS_LANES], shift[LS_LANES], back[LS_LANES], values[LS_LANES] = {0}, data[LS_LANES];
-    find_largest(largest, column, stride, ls->y.knots.size, lanes);
-    choose_shifts(shift, kernels, largest);
-    begin_strip(ls, &ls->y);
-    for (int32_t y = 0; y < ls->y.knots.size; y++) {
-        copy_lanes(values, column + y * stride, lanes);
-        kernels->ls_scale(data, values, shift);
-        take_equation(ls, kernels, &ls->y.equation[y], data);
+    find_largest(largest, column, stride, size, lanes);
+    choose_shifts(shift, fit->kernels, largest);
+    begin_strip(fit);
+    for (int32_t y = 0; y < size; y++) {
+        copy_lanes(values, column + (ptrdiff_t)y * stride, lanes);
+        fit->kernels->ls_scale(data, values, shift);
+        take_equation(fit, y, data);
     }
-    end_strip(ls, kernels, &ls->y);
+    end_strip(fit);
     const int32_t surplus = ROW_BITS - LS_STATE_BITS - fraction_bits;
     for (int lane = 0; lane < LS_LANES; lane++)
         back[lane] = -(surplus + shift[lane]);
-    for (int32_t j = 0; j < ls->y.coefficients; j++) {
-        kernels->ls_scale(data, ls->strip + j * LS_LANES, back);
-        copy_lanes(column + j * stride, data, lanes);
+    for (int32_t j = 0; j < fit->axis->coefficients; j++) {
+        fit->kernels->ls_scale(data, fit->strip->lane + j * LS_LANES, back);
+        copy_lanes(column + (ptrdiff_t)j * stride, data, lanes);
     }
+}
+
+void ls_fit_columns(ls_t *ls, const warp_kernels_t *kernels, int plane, const image_t *picture, worker_t worker)
+{
+    const int32_t stride = ls->plane[plane].x.coefficients * (int32_t)picture->format;
+    const int32_t fraction_bits = fraction_bits_for(ls, plane);
+    const share_t strips = share_of(worker, (stride + LS_LANES - 1) / LS_LANES);
+    const fit_t fit = {&ls->plane[plane].y, &ls->strip[worker.index], kernels, ls->coefficients + plane_offset(plane)};
+    for (int32_t lane = strips.begin * LS_LANES; lane < strips.end * LS_LANES; lane += LS_LANES)
+        fit_strip_of_columns(&fit, lane, stride, fraction_bits);
+}
+
+ls_surface_t ls_surface(const ls_t *ls, int plane)
+{
+    return (ls_surface_t){&ls->plane[plane].x, &ls->plane[plane].y, ls->coefficients + plane_offset(plane),
+                          fraction_bits_for(ls, plane)};
 }
 
 ls_surface_t ls_fit(ls_t *ls, const warp_kernels_t *kernels, const image_t *picture, int32_t k_q16)
 {
-    const int32_t channels = (int32_t)picture->format, rows = LS_LANES / channels;
-    ls_axis_update(&ls->x, picture->width, k_q16, ls->weights.x);
-    ls_axis_update(&ls->y, picture->height, k_q16, ls->weights.y);
-    for (int32_t y = 0; y < picture->height; y += rows)
-        fit_rows(ls, kernels, picture, y, y + rows < picture->height ? y + rows : picture->height);
-    const int32_t stride = ls->x.coefficients * channels;
-    const int32_t fraction_bits = fraction_bits_for(ls->coefficients, (ptrdiff_t)stride * picture->height);
-    for (int32_t lane = 0; lane < stride; lane += LS_LANES)
-        fit_columns(ls, kernels, ls->coefficients + lane, stride - lane < LS_LANES ? stride - lane : LS_LANES, stride,
-                    fraction_bits);
-    return (ls_surface_t){&ls->x, &ls->y, ls->coefficients, fraction_bits};
+    ls_begin(ls, 0, picture, picture, k_q16);
+    ls_fit_rows(ls, kernels, 0, picture, only_worker);
+    ls_fit_columns(ls, kernels, 0, picture, only_worker);
+    return ls_surface(ls, 0);
 }

@@ -28,6 +28,14 @@ void ls_pixels_gray_neon(int32_t *restrict data, const uint8_t *const *rows, int
     store_pixels(data, vld1q_u8(bytes));
 }
 
+void ls_pixels_chroma_neon(int32_t *restrict data, const uint8_t *const *rows, int32_t x)
+{
+    uint8_t bytes[LS_LANES];
+    for (int row = 0; row < LS_LANES / 2; row++)
+        memcpy(bytes + 2 * row, rows[row] + (ptrdiff_t)x * 2, 2);
+    store_pixels(data, vld1q_u8(bytes));
+}
+
 void ls_pixels_xrgb_neon(int32_t *restrict data, const uint8_t *const *rows, int32_t x)
 {
     uint8_t bytes[LS_LANES];

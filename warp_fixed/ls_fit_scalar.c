@@ -14,6 +14,11 @@ void ls_pixels_gray_scalar(int32_t *restrict data, const uint8_t *const *rows, i
     take_pixels(data, rows, x, 1);
 }
 
+void ls_pixels_chroma_scalar(int32_t *restrict data, const uint8_t *const *rows, int32_t x)
+{
+    take_pixels(data, rows, x, 2);
+}
+
 void ls_pixels_xrgb_scalar(int32_t *restrict data, const uint8_t *const *rows, int32_t x)
 {
     take_pixels(data, rows, x, 4);

@@ -18,12 +18,16 @@ typedef struct {
     bool splines;
 } prefilter_kind_t;
 
+/** The first pass of rows, with mirrored ends. */
+typedef struct {
+    int16_t sums[FILTER_ROWS][(IMAGE_MAX_WIDTH + 2 * PREFILTER_MAX_RADIUS) * 4];
+} prefilter_rows_t;
+
 /** The last filter, and what it has made of this frame's picture: 93 MB, touched as far as a picture needs them. */
 typedef struct {
     prefilter_kind_t kind;
     fir_t fir;
-    int16_t sums[FILTER_ROWS][(IMAGE_MAX_WIDTH + 2 * PREFILTER_MAX_RADIUS) * 4]; /**< first pass, with mirrored ends */
-    bool made[LEVELS][LEVELS]; /**< coefficients of [x level][y level] */
+    prefilter_rows_t rows[WORKERS_MAX]; /**< each worker's */
     union {
         uint8_t pixels[IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT * 4];
         int16_t coefficients[IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT * 4 + LEVELS_BYTES]; /**< the picture's, its levels' */
@@ -34,7 +38,7 @@ typedef struct {
 void prefilter_init(prefilter_t *prefilter);
 
 /**
- * Begin a frame: forget what was made, and have the filter of its step.
+ * Begin a frame: have the filter of its step.
  *
  * @param k_q16    Q16; k <= 1 bypasses the low-pass; larger than FIR_MAX_K_Q16 counts as that.
  * @param splines  Coefficients of the cubic B-spline are wanted.
@@ -42,20 +46,23 @@ void prefilter_init(prefilter_t *prefilter);
  */
 bool prefilter_begin(prefilter_t *prefilter, warp_filter_t filter, int32_t k_q16, bool splines);
 
-/**
- * The filtered picture, with half-sample mirror borders. 2 (2 radius + 1) products per byte.
- *
- * @return A view into `prefilter`, valid until the next call.
- */
-image_t prefilter_pixels(prefilter_t *prefilter, const warp_kernels_t *kernels, const image_t *picture);
+/** @return A view into `prefilter`, of the filtered picture as prefilter_make_pixels() writes it: a picture's only
+ * plane is 0. */
+image_t prefilter_pixels(prefilter_t *prefilter, const image_t *picture, int plane);
+
+/** Filter a worker's rows, with half-sample mirror borders. 2 (2 radius + 1) products per byte. */
+void prefilter_make_pixels(prefilter_t *prefilter, const warp_kernels_t *kernels, const image_t *picture, int plane,
+                           worker_t worker);
 
 /**
- * The same as coefficients, made when first asked for in a frame.
- *
  * @param picture  The picture at that level (levels.h).
- * @return A view into `prefilter`, valid until prefilter_begin().
+ * @return A view into `prefilter`, of the coefficients as prefilter_make_coefficients() writes them. Those of each
+ *         level have their own place; pixels share it with them.
  */
-coefficients_t prefilter_coefficients(prefilter_t *prefilter, const warp_kernels_t *kernels, const image_t *picture,
-                                      int level_x, int level_y);
+coefficients_t prefilter_coefficients(prefilter_t *prefilter, const image_t *picture, level_t level);
+
+/** Filter a worker's rows of the picture at a level to coefficients. */
+void prefilter_make_coefficients(prefilter_t *prefilter, const warp_kernels_t *kernels, const image_t *picture,
+                                 level_t level, worker_t worker);
 
 #endif

@@ -104,6 +104,9 @@ static inline __attribute__((always_inline)) void row_unrolled(row_out_t out, co
     if (channels == 1)
         for (; v != end; v += ROW_STEP, out = next_step(out))
             store_row(out, row_sums(v, weights, radius, 1, true));
+    else if (channels == 2)
+        for (; v != end; v += ROW_STEP, out = next_step(out))
+            store_row(out, row_sums(v, weights, radius, 2, true));
     else
         for (; v != end; v += ROW_STEP, out = next_step(out))
             store_row(out, row_sums_xrgb(v, weights, radius));

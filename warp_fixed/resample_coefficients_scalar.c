@@ -66,6 +66,11 @@ void resample_coefficients_gray_scalar(const patch_t *patch, const window_t *win
     weigh_patch(patch, window, 1);
 }
 
+void resample_coefficients_chroma_scalar(const patch_t *patch, const window_t *window)
+{
+    weigh_patch(patch, window, 2);
+}
+
 void resample_coefficients_xrgb_scalar(const patch_t *patch, const window_t *window)
 {
     weigh_patch(patch, window, 4);

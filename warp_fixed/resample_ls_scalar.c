@@ -35,6 +35,11 @@ void resample_ls_gray_scalar(const patch_t *patch, const ls_surface_t *surface)
     evaluate_patch(patch, surface, 1);
 }
 
+void resample_ls_chroma_scalar(const patch_t *patch, const ls_surface_t *surface)
+{
+    evaluate_patch(patch, surface, 2);
+}
+
 void resample_ls_xrgb_scalar(const patch_t *patch, const ls_surface_t *surface)
 {
     evaluate_patch(patch, surface, 4);

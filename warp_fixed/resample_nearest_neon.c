@@ -75,6 +75,14 @@ void resample_nearest_gray_neon(const patch_t *patch, const image_t *picture)
         resample_nearest_gray_scalar(patch, picture);
 }
 
+void resample_nearest_chroma_neon(const patch_t *patch, const image_t *picture)
+{
+    if (suits(patch, picture))
+        nearest(patch, picture, 1);
+    else
+        resample_nearest_chroma_scalar(patch, picture);
+}
+
 void resample_nearest_xrgb_neon(const patch_t *patch, const image_t *picture)
 {
     if (suits(patch, picture))

@@ -29,6 +29,11 @@ void resample_nearest_gray_scalar(const patch_t *patch, const image_t *picture)
     copy_patch(patch, picture, 1);
 }
 
+void resample_nearest_chroma_scalar(const patch_t *patch, const image_t *picture)
+{
+    copy_patch(patch, picture, 2);
+}
+
 void resample_nearest_xrgb_scalar(const patch_t *patch, const image_t *picture)
 {
     copy_patch(patch, picture, 4);

@@ -67,6 +67,11 @@ void resample_window_gray_scalar(const patch_t *patch, const window_t *window)
     weigh_patch(patch, window, 1);
 }
 
+void resample_window_chroma_scalar(const patch_t *patch, const window_t *window)
+{
+    weigh_patch(patch, window, 2);
+}
+
 void resample_window_xrgb_scalar(const patch_t *patch, const window_t *window)
 {
     weigh_patch(patch, window, 4);

@@ -14,13 +14,37 @@
 #include "warp_fixed/levels.h"
 #include "warp_fixed/ls_fit.h"
 #include "warp_fixed/method.h"
+#include "warp_fixed/picture.h"
 #include "warp_fixed/prefilter.h"
 #include "warp_fixed/window_weights.h"
+#include "warp_fixed/workers.h"
+
+enum { WARP_BAND_ROWS = FOOTPRINT_BAND, WARP_MAX_BANDS = (IMAGE_MAX_HEIGHT + WARP_BAND_ROWS - 1) / WARP_BAND_ROWS };
 
 /** Which weights and which level of the picture serve a block, along both axes. */
 typedef struct {
     window_side_t x, y;
 } warp_block_t;
+
+/** A plane of the present frame: where its pixels fall, and what they read. */
+typedef struct {
+    image_t panel; /**< data is NULL when its pixels go into the worker's own rows first */
+    image_t picture;
+    uint8_t border[4]; /**< a pixel that is not lit */
+    grid_t grid;
+    int32_t bands;                      /**< of WARP_BAND_ROWS rows of the panel, the last may have less */
+    uint8_t block_log2[WARP_MAX_BANDS]; /**< size of the band's blocks */
+    warp_block_t block[WARP_MAX_BANDS][IMAGE_MAX_WIDTH / FOOTPRINT_BAND]; /**< of bands where they have the full size */
+} warp_plane_t;
+
+/** What one worker has to itself. */
+typedef struct {
+    footprint_blocks_t sides;
+    warp_block_t block[IMAGE_MAX_WIDTH];                /**< of a row of smaller blocks */
+    bool wanted[PICTURE_MAX_PLANES][LEVELS][LEVELS];    /**< [][x level][y level]: some block of its bands reads it */
+    uint8_t luma[2 * WARP_BAND_ROWS * IMAGE_MAX_WIDTH]; /**< rows to be converted to the panel's format */
+    uint8_t chroma[WARP_BAND_ROWS * IMAGE_MAX_WIDTH];
+} warp_scratch_t;
 
 enum { WARP_TABLES = 4 };
 
@@ -31,20 +55,28 @@ typedef struct {
     window_weights_t weights;
 } warp_table_t;
 
-/** Everything a board needs between and within frames; about 162 MB, most of it never touched by small pictures. */
+/** Everything a board needs between and within frames; about 202 MB, most of it never touched by small pictures. */
 typedef struct {
     warp_method_t method;       /**< of the next frames */
     bool filters;               /**< that method filters or makes splines, at some steps at least */
     bool fits;                  /**< ready for WARP_LS, else for methods that filter */
     bool step_all;              /**< take k over the whole wall, not only over what lands in the picture */
-    uint8_t border[4];          /**< B, G, R, X of unlit pixels; border[0] alone for gray */
+    uint8_t border[4];          /**< B, G, R, X of unlit pixels; B is the level of gray ones */
     warp_resampler_t resampler; /**< of the present frame: the method's, unless that is WARP_AUTO */
     int32_t tables;
     warp_table_t table[WARP_TABLES];        /**< of the methods that it is ready for: the first `tables` */
     int32_t texel_table, coefficient_table; /**< of the method in use, where it has them */
-    grid_t grid;
-    footprint_blocks_t blocks;
-    warp_block_t block[IMAGE_MAX_WIDTH];
+    const warp_kernels_t *kernels;          /**< of the present frame */
+    picture_t panel, picture;
+    int32_t planes;
+    bool any_lit;
+    bool filtered;      /**< read is what the prefilter makes of the picture */
+    int32_t unit_bands; /**< bands are dealt in units of so many of plane 0, and one of plane 1 */
+    int32_t units;
+    int32_t cost_before[WARP_MAX_BANDS + 1]; /**< of all units above */
+    warp_plane_t plane[PICTURE_MAX_PLANES];  /**< all of a pixel; or luma, and chroma with pixels of its own size */
+    warp_scratch_t scratch[WORKERS_MAX];
+    uint8_t converted[IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT * 4]; /**< planes of a picture that came in another format */
     levels_t levels;
     union {
         prefilter_t prefilter;
@@ -63,7 +95,7 @@ typedef struct {
 /**
  * Prepare for a method: build its weight tables. Takes some milliseconds; call it before the loop.
  *
- * @param[out] warp    Need not be initialised. Holds no pointer into itself or elsewhere: may be moved.
+ * @param[out] warp    Need not be initialised. Between frames it may be moved.
  * @param      border  Colour of unlit pixels: R, G, B.
  */
 void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t border[3]);
@@ -89,21 +121,53 @@ void warp_use_method(warp_t *warp, warp_method_t method);
  */
 void warp_set_ls_weights(warp_t *warp, const ls_weights_t *weights);
 
+/** What is done for a frame after its plan, in this order. */
+typedef enum {
+    WARP_TAKE,        /**< the picture's planes, where its format has no such planes */
+    WARP_MEASURE,     /**< sides of all blocks */
+    WARP_REDUCE,      /**< levels that these need */
+    WARP_FILTER,      /**< filtered picture, or coefficients */
+    WARP_FIT_ROWS,    /**< method ls: along x, */
+    WARP_FIT_COLUMNS, /**< then along y */
+    WARP_DRAW         /**< the panel's pixels */
+} warp_step_t;
+
 /**
- * Make one frame. Every panel pixel is written, nothing else.
+ * Plan one frame, for any number of workers: then, for each step in order that warp_needs(), all of them do their
+ * warp_work(), at the same time or one after the other; none begins a step before all have ended the last one. Every
+ * panel pixel is written, nothing else, and the bytes are the same for any number of workers.
  *
  * @param      kernels     Which implementation of the pixel loops.
  * @param[out] report      May be NULL.
  * @param      homography  Panel and picture sizes must be those of the images.
- * @param      panel       Destination; must not overlap the picture.
- * @param      picture     Source, of the panel's format.
- * @return false, and nothing written, when sizes or formats disagree or exceed IMAGE_MAX_WIDTH x IMAGE_MAX_HEIGHT.
+ * @param      panel       Destination; must not overlap the picture. Both stay until the last step is done.
+ * @param      picture     Source. GRAY8 goes to GRAY8; XRGB8888, RGB888 and BGR888 to XRGB8888; YUYV, UYVY and NV12 to
+ *                         XRGB8888, YUYV and NV12. Luma and chroma are warped apart, the chroma at its own size with
+ *                         the homography of its pixels (homography_of_chroma.h) and the luma's step k, and put
+ *                         together last; for XRGB8888 a panel pixel has the chroma of its rectangle (picture.h), of
+ *                         the picture's kind. A panel of YUV gets the picture's matrix, whatever its own.
+ * @return false, and nothing written, when a size is not the homography's, or a format or stride is not as above and
+ *         in picture.h.
  *
- * No allocation. Time is bounded: a lit pixel reads WINDOW_MAX_TAPS x WINDOW_MAX_TAPS texels at most. Together they
- * read some 36 texels per lit pixel, or where footprints are larger than that a small multiple of the picture's own
- * pixels: 1 to 4 times it, and A / 2 times that when footprints of aspect ratio A stand askew (A is 11 at 85 degrees).
- * Filters, splines and fits cost per picture pixel besides (prefilter.h, ls_fit.h); nothing if none is lit.
+ * No allocation, no locks. Time is bounded: a lit pixel reads WINDOW_MAX_TAPS x WINDOW_MAX_TAPS texels at most.
+ * Together they read some 36 texels per lit pixel, or where footprints are larger than that a small multiple of the
+ * picture's own pixels: 1 to 4 times it, and A / 2 times that when footprints of aspect ratio A stand askew (A is 11 at
+ * 85 degrees). Filters, splines and fits cost per picture pixel besides (prefilter.h, ls_fit.h); nothing if none is
+ * lit. The plan itself is O(panel's width + height); a new k means new filters or fits (fir_design.h, ls_axis.h).
  */
+bool warp_plan(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *report, const homography_t *homography,
+               const picture_t *panel, const picture_t *picture);
+
+/** @return Is there anything to do in this step of the present frame? */
+bool warp_needs(const warp_t *warp, warp_step_t step);
+
+/**
+ * Do a worker's share of a step. Bands of rows are dealt so that each worker's follow one another, and cost as nearly
+ * the same as bands allow: by lit pixels.
+ */
+void warp_work(warp_t *warp, warp_step_t step, worker_t worker);
+
+/** Make one frame of gray or XRGB8888 images with one worker: warp_plan() and all its steps. */
 bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *report, const homography_t *homography,
                 const image_t *panel, const image_t *picture);
 

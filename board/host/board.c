@@ -7,4 +7,5 @@ const board_table_t board_table = {
     .can = "29536", /* the port that socketcand has by custom */
     .camera = "pattern",
     .display = "none",
+    .workers = {.count = 1, .first_core = HAL_WORKERS_ANY_CORE},
 };

@@ -88,9 +88,10 @@ static int print_points(const options_t *options, const char *command)
         return (int)status;
     const bool on_panel = all_on_panel(options, &once, command);
     if (on_panel) {
-        grid_from_homography(&once.warp->grid, &once.homography);
+        grid_from_homography(&once.warp->plane[0].grid, &once.homography);
         for (int n = 0; n < options->at_count; n++)
-            print_point(&once.homography, &once.warp->grid, (int32_t)options->at[n].i, (int32_t)options->at[n].j);
+            print_point(&once.homography, &once.warp->plane[0].grid, (int32_t)options->at[n].i,
+                        (int32_t)options->at[n].j);
     }
     warp_once_close(&once);
     return on_panel ? program_finish(command) : WARP_ONCE_BAD_USAGE;

@@ -49,7 +49,7 @@ static rectangle_point_t put_on_panel(work_t *work, rectangle_point_t point)
     const rectangle_point_t exact = map(work->tracked_exact.panel_from_picture, point);
     const int32_t i = (int32_t)exact.x, j = (int32_t)exact.y;
     int32_t x_q18, y_q18;
-    if (!grid_point(&work->warp->grid, i, j, &x_q18, &y_q18))
+    if (!grid_point(&work->warp->plane[0].grid, i, j, &x_q18, &y_q18))
         return exact;
     invert(picture_from_panel, work->tracked_exact.panel_from_picture);
     const rectangle_point_t centre = map(picture_from_panel, (rectangle_point_t){i + 0.5, j + 0.5});

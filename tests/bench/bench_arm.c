@@ -5,7 +5,7 @@
 //
 // Picture and poses are those of workload.h. What is between the markers:
 //   grid            grid_from_homography(), then the points of every lit pixel, 64 columns at a time, stored;
-//   gauss, kaiser   prefilter_coefficients() of the picture with 7 taps, known before;
+//   gauss, kaiser   prefilter_make_coefficients() of the picture with 7 taps, known before;
 //   all others      warp_frame() of the method. bench_arm.sh leaves parts of it out, but not for frame:*.
 #include <stdio.h>
 #include <stdlib.h>
@@ -57,7 +57,7 @@ static const void *find(const char *what, const char *name, const void *table, s
 
 static void run_grid(const warp_kernels_t *kernels, const homography_t *homography)
 {
-    grid_t *grid = &warp.grid;
+    grid_t *grid = &warp.plane[0].grid;
     bench_begin();
     grid_from_homography(grid, homography);
     for (int32_t j = 0; j < BENCH_HEIGHT; j++) {
@@ -77,7 +77,9 @@ static bool run_prefilter(const warp_kernels_t *kernels, const image_t *picture,
     if (!bench_seven_taps(&warp.prefilter, filter))
         return false;
     bench_begin();
-    const coefficients_t filtered = prefilter_coefficients(&warp.prefilter, kernels, picture, 0, 0);
+    const level_t whole = {0, 0, 0};
+    prefilter_make_coefficients(&warp.prefilter, kernels, picture, whole, only_worker);
+    const coefficients_t filtered = prefilter_coefficients(&warp.prefilter, picture, whole);
     bench_end();
     return filtered.width == picture->width;
 }

@@ -27,7 +27,7 @@ left_out() {
     case $case in
     grid | gauss | kaiser | frame:*) ;;
     *) echo "grid_from_homography grid_row_cursor grid_points_$kernels prefilter_begin" \
-        "prefilter_pixels prefilter_coefficients ls_axis_update" ;;
+        "prefilter_make_pixels prefilter_make_coefficients ls_axis_update" ;;
     esac
 }
 

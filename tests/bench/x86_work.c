@@ -36,8 +36,10 @@ bool x86_prepare(const x86_job_t *job)
 static image_t do_ours(const x86_job_t *job, const warp_kernels_t *kernels)
 {
     const image_t refused = {.data = NULL};
-    if (job->work->method == NULL)
-        return prefilter_pixels(&job->warp->prefilter, kernels, &job->picture);
+    if (job->work->method == NULL) {
+        prefilter_make_pixels(&job->warp->prefilter, kernels, &job->picture, 0, only_worker);
+        return prefilter_pixels(&job->warp->prefilter, &job->picture, 0);
+    }
     return warp_frame(job->warp, kernels, NULL, &job->homography, &job->panel, &job->picture) ? job->panel : refused;
 }
 

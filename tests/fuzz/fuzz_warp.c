@@ -174,7 +174,7 @@ static int32_t check_pixels(const warp_t *warp, const image_t *panel, int32_t ra
     int32_t lit = 0;
     const int32_t channels = (int32_t)panel->format, slack = overshoot(&warp->method, range);
     for (int32_t j = 0; j < panel->height; j++) {
-        const grid_row_t *row = &warp->grid.row[j];
+        const grid_row_t *row = &warp->plane[0].grid.row[j];
         fuzz_check(row->begin >= 0 && row->begin <= row->end && row->end <= panel->width,
                    "lit pixels are in the panel");
         for (int32_t i = 0; i < panel->width; i++) {

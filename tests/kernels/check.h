@@ -34,6 +34,6 @@ void check_fill(uint8_t *bytes, size_t size, int kind, rng_t *rng);
 /** The groups; each runs one part of the table. */
 typedef void check_group_fn(const warp_kernels_t *tested);
 check_group_fn check_grid_points, check_filters, check_nearest, check_windows, check_coefficients, check_ls,
-    check_frames;
+    check_conversions, check_frames;
 
 #endif

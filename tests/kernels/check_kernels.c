@@ -75,9 +75,10 @@ int main(void)
         const char *name;
         check_group_fn *run;
     } groups[] = {
-        {"grid_points", check_grid_points}, {"filters", check_filters},           {"nearest", check_nearest},
-        {"windows", check_windows},         {"coefficients", check_coefficients}, {"ls", check_ls},
-        {"frames", check_frames},
+        {"grid_points", check_grid_points},   {"filters", check_filters},
+        {"nearest", check_nearest},           {"windows", check_windows},
+        {"coefficients", check_coefficients}, {"ls", check_ls},
+        {"conversions", check_conversions},   {"frames", check_frames},
     };
     int passed = 0, failed = 0;
     signal(SIGSEGV, on_fence);

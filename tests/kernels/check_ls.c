@@ -43,12 +43,19 @@ static void check_axis(const warp_kernels_t *tested, const ls_axis_t *axis, rng_
     }
 }
 
+static ls_pixels_fn *pixels_loop(const warp_kernels_t *kernels, int32_t channels)
+{
+    return channels == 1   ? kernels->ls_pixels_gray
+           : channels == 2 ? kernels->ls_pixels_chroma
+                           : kernels->ls_pixels_xrgb;
+}
+
 static void check_pixels(const warp_kernels_t *tested, rng_t *rng)
 {
     enum { MAX_WIDTH = 9 };
     static fenced_t memory[LS_LANES];
     const uint8_t *rows[LS_LANES];
-    const int32_t width = (int32_t)rng_int(rng, 1, MAX_WIDTH), channels = rng_int(rng, 0, 1) ? 4 : 1;
+    const int32_t width = (int32_t)rng_int(rng, 1, MAX_WIDTH), channels = 1 << rng_int(rng, 0, 2);
     for (int i = 0; i < LS_LANES; i++) {
         if (memory[i].begin == NULL)
             memory[i] = fenced_new(MAX_WIDTH * 4);
@@ -59,9 +66,8 @@ static void check_pixels(const warp_kernels_t *tested, rng_t *rng)
     for (int32_t x = 0; x < width; x++) {
         check_case("ls_pixels of %d channels, %d of %d", channels, x, width);
         outputs_begin(&outputs, LS_LANES * sizeof(int32_t));
-        const int gray = channels == 1;
-        (gray ? warp_kernels_scalar.ls_pixels_gray : warp_kernels_scalar.ls_pixels_xrgb)(outputs.expected, rows, x);
-        (gray ? tested->ls_pixels_gray : tested->ls_pixels_xrgb)(outputs.found, rows, x);
+        pixels_loop(&warp_kernels_scalar, channels)(outputs.expected, rows, x);
+        pixels_loop(tested, channels)(outputs.found, rows, x);
         outputs_compare(&outputs);
     }
 }

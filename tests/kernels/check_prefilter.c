@@ -87,7 +87,10 @@ static void check_rows(const warp_kernels_t *tested, const fir_t *fir, bool byte
     rng_t rng = {(uint64_t)fir->radius};
     for (int kind = 0; kind < 4; kind++) {
         for (int32_t count = 0; count <= CHECK_MAX_COUNT; count++) {
-            const int32_t channels = count % 4 == 0 ? 4 : 1, edge = readable_radius(fir) * channels;
+            const int32_t channels = count % 4 == 0   ? 4
+                                     : count % 4 == 2 ? 2
+                                                      : 1,
+                          edge = readable_radius(fir) * channels;
             int16_t *v = fenced_place(&sums, (size_t)(count + 2 * edge) * sizeof *v, count % 3 == 0);
             fill_sums(v, fir, count, channels, kind, &rng);
             check_case("%s, %s, radius %d, fill %d, count %d", bytes ? "filter_row_bytes" : "filter_row", name,

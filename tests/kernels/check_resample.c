@@ -30,6 +30,33 @@ static image_t fenced_picture(int32_t width, int32_t height, image_format_t form
     return picture;
 }
 
+static image_format_t any_format(rng_t *rng)
+{
+    static const image_format_t formats[] = {IMAGE_GRAY8, IMAGE_UV88, IMAGE_XRGB8888};
+    return formats[rng_int(rng, 0, 2)];
+}
+
+static resample_nearest_fn *nearest_of(const warp_kernels_t *kernels, image_format_t format)
+{
+    return format == IMAGE_GRAY8  ? kernels->nearest_gray
+           : format == IMAGE_UV88 ? kernels->nearest_chroma
+                                  : kernels->nearest_xrgb;
+}
+
+static resample_window_fn *window_of(const warp_kernels_t *kernels, image_format_t format)
+{
+    return format == IMAGE_GRAY8  ? kernels->window_gray
+           : format == IMAGE_UV88 ? kernels->window_chroma
+                                  : kernels->window_xrgb;
+}
+
+static resample_window_fn *coefficients_of(const warp_kernels_t *kernels, image_format_t format)
+{
+    return format == IMAGE_GRAY8  ? kernels->coefficients_gray
+           : format == IMAGE_UV88 ? kernels->coefficients_chroma
+                                  : kernels->coefficients_xrgb;
+}
+
 /* Points of one axis as a grid makes them: steps from column to column and from row to row. */
 static const int32_t *fill_points(int axis, const int32_t size[2], int64_t at, int64_t by_column, int64_t by_row)
 {
@@ -80,7 +107,7 @@ void check_nearest(const warp_kernels_t *tested)
     for (uint64_t seed = 1; seed <= 60; seed++) {
         rng_t rng = {seed};
         for (int32_t count = 0; count <= PATCH_MAX_WIDTH; count++) {
-            const image_format_t format = rng_int(&rng, 0, 1) ? IMAGE_GRAY8 : IMAGE_XRGB8888;
+            const image_format_t format = any_format(&rng);
             const int32_t width = (int32_t)rng_int(&rng, 1, 140), height = (int32_t)rng_int(&rng, 1, 140);
             const image_t picture = fenced_picture(width, height, format, &rng);
             const int32_t size[2] = {count, (int32_t)rng_int(&rng, 1, PATCH_MAX_HEIGHT)};
@@ -91,9 +118,8 @@ void check_nearest(const warp_kernels_t *tested)
             outputs_begin(&outputs, patch_bytes(size, stride, format));
             const patch_t expected = patch_into(outputs.expected, size, stride, x, y);
             const patch_t found = patch_into(outputs.found, size, stride, x, y);
-            const int gray = format == IMAGE_GRAY8;
-            (gray ? warp_kernels_scalar.nearest_gray : warp_kernels_scalar.nearest_xrgb)(&expected, &picture);
-            (gray ? tested->nearest_gray : tested->nearest_xrgb)(&found, &picture);
+            nearest_of(&warp_kernels_scalar, format)(&expected, &picture);
+            nearest_of(tested, format)(&found, &picture);
             outputs_compare(&outputs);
         }
     }
@@ -137,13 +163,13 @@ static int32_t level_0_size(int32_t size, int level, rng_t *rng)
 static void check_window(const warp_kernels_t *tested, const char *name, uint16_t x_side, uint16_t y_side, rng_t *rng)
 {
     const uint64_t seed = rng->state;
-    const image_format_t format = rng_int(rng, 0, 1) ? IMAGE_GRAY8 : IMAGE_XRGB8888;
+    const image_format_t format = any_format(rng);
     const int is_large = (int)rng_int(rng, 0, 3);
     const window_axis_t x_axis = window_axis(&weights, x_side), y_axis = window_axis(&weights, y_side);
     const int level_x = x_axis.taps > WINDOW_SHORT_TAPS && rng_int(rng, 0, 9) == 0;
     const int level_y = y_axis.taps > WINDOW_SHORT_TAPS && rng_int(rng, 0, 9) == 0;
     const int32_t width = (int32_t)rng_int(rng, 1, is_large ? 90 : 12);
-    const int32_t height = (int32_t)rng_int(rng, 1, is_large ? 90 : 12), gray = format == IMAGE_GRAY8;
+    const int32_t height = (int32_t)rng_int(rng, 1, is_large ? 90 : 12);
     const int32_t size[2] = {(int32_t)rng_next(rng) & 31, (int32_t)rng_int(rng, 1, 3)};
     const ptrdiff_t stride = size[0] * (ptrdiff_t)format + rng_int(rng, 0, 9);
     window_t window = {.x = x_axis,
@@ -161,13 +187,13 @@ static void check_window(const warp_kernels_t *tested, const char *name, uint16_
     resample_window_fn *expected, *found;
     if (weights.of_coefficients) {
         window.coefficients = fenced_coefficients(&window.picture, rng);
-        expected = gray ? warp_kernels_scalar.coefficients_gray : warp_kernels_scalar.coefficients_xrgb;
-        found = gray ? tested->coefficients_gray : tested->coefficients_xrgb;
+        expected = coefficients_of(&warp_kernels_scalar, format);
+        found = coefficients_of(tested, format);
     } else {
         if (size[0] > 0 && rng_int(rng, 0, 1))
             fill_worst(&window, x[0], y[0], (int)rng_int(rng, 0, 1));
-        expected = gray ? warp_kernels_scalar.window_gray : warp_kernels_scalar.window_xrgb;
-        found = gray ? tested->window_gray : tested->window_xrgb;
+        expected = window_of(&warp_kernels_scalar, format);
+        found = window_of(tested, format);
     }
     check_case("%s, sides %d and %d, rng %#llx, %d x %d of %d channels, patch %d x %d", name, x_side, y_side,
                (unsigned long long)seed, width, height, (int)format, size[0], size[1]);
@@ -183,7 +209,7 @@ static void check_window(const warp_kernels_t *tested, const char *name, uint16_
 static void check_table(const warp_kernels_t *tested, const char *name, warp_resampler_t resampler,
                         bool of_coefficients)
 {
-    enum { PLAIN_CASES = 1500, CASES_PER_SIDE = 8, SMALL_SIDES = 200, SMALL_CASES = 1500 };
+    enum { PLAIN_CASES = 2000, CASES_PER_SIDE = 10, SMALL_SIDES = 200, SMALL_CASES = 2500 };
     rng_t rng = {(uint64_t)resampler};
     take_memory();
     window_weights_init(&weights, resampler, of_coefficients);

@@ -97,11 +97,11 @@ static void draw_defined(warp_resampler_t resampler)
     for (int32_t n = 0; n < WIDTH * HEIGHT; n++) {
         const int32_t i = n % WIDTH, j = n / WIDTH;
         if (i == 0 && j % FOOTPRINT_BAND == 0)
-            log2 = footprint_block_log2(&warp.grid, j);
+            log2 = footprint_block_log2(&warp.plane[0].grid, j);
         if (i == 0 && j % (1 << log2) == 0)
-            footprint_blocks(&blocks, &warp.grid, j, log2);
+            footprint_blocks(&blocks, &warp.plane[0].grid, j, log2);
         int32_t point[2];
-        const bool lit = grid_point(&warp.grid, i, j, &point[0], &point[1]);
+        const bool lit = grid_point(&warp.plane[0].grid, i, j, &point[0], &point[1]);
         defined[n] = lit ? float_pixel(resampler, point, &blocks.block[i >> log2]) : 0;
     }
 }

@@ -36,6 +36,7 @@ static void every_count_and_alignment_is_filled_exactly(void **state)
     for (int32_t count = 0; count <= MAX_COUNT; count++) {
         for (size_t offset = 0; offset < 17; offset++) {
             check_fill(IMAGE_GRAY8, count, offset);
+            check_fill(IMAGE_UV88, count, offset);
             check_fill(IMAGE_XRGB8888, count, offset);
         }
     }

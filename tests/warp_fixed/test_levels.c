@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Halved levels of a picture: means of blocks, mirrored beyond the edge, made once per frame; frames that need several.
+// Halved levels of a picture: means of blocks, mirrored beyond the edge, shared by workers; frames that need several.
 #include "warp_fixed/levels.h"
 
 #include <setjmp.h>
@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include <math.h>
+#include <string.h>
 
 #include "tests/support/homography_of.h"
 #include "tests/support/rng.h"
@@ -26,11 +27,11 @@ static void levels_are_means(void **state)
     for (size_t i = 0; i < sizeof(pixels); i++)
         pixels[i] = (uint8_t)rng_next(&rng);
     const image_t picture = {pixels, 150, 100, 150 * 4, IMAGE_XRGB8888};
-    levels_begin(&levels);
-    assert_ptr_equal(levels_picture(&levels, &picture, 0, 0).data, pixels);
+    assert_ptr_equal(levels_picture(&levels, &picture, (level_t){0, 0, 0}).data, pixels);
     for (int lx = 0; lx < LEVELS; lx++) {
         for (int ly = lx == 0 ? 1 : 0; ly < LEVELS; ly++) {
-            const image_t level = levels_picture(&levels, &picture, lx, ly);
+            const image_t level = levels_picture(&levels, &picture, (level_t){lx, ly, 0});
+            levels_make(&levels, &picture, (level_t){lx, ly, 0}, only_worker);
             const int32_t step_x = 1 << 3 * lx, step_y = 1 << 3 * ly;
             assert_int_equal(level.width, (150 + step_x - 1) / step_x);
             assert_int_equal(level.height, (100 + step_y - 1) / step_y);
@@ -50,17 +51,27 @@ static void levels_are_means(void **state)
     }
 }
 
-static void levels_are_made_once_a_frame(void **state)
+/* Each worker writes its rows and no others, and together they make the level. */
+static void workers_share_the_rows(void **state)
 {
     (void)state;
-    const image_t picture = {pixels, 64, 64, 64, IMAGE_GRAY8};
-    levels_begin(&levels);
-    const uint8_t before = levels_picture(&levels, &picture, 1, 1).data[0];
-    for (int i = 0; i < 64 * 64; i++)
-        pixels[i] = (uint8_t)(before ^ 0x40);
-    assert_int_equal(levels_picture(&levels, &picture, 1, 1).data[0], before);
-    levels_begin(&levels);
-    assert_int_equal(levels_picture(&levels, &picture, 1, 1).data[0], before ^ 0x40);
+    const image_t picture = {pixels, 150, 100, 150 * 4, IMAGE_XRGB8888};
+    const level_t level = {1, 1, 0};
+    static uint8_t whole[19 * 13 * 4];
+    levels_make(&levels, &picture, level, only_worker);
+    const image_t made = levels_picture(&levels, &picture, level);
+    memcpy(whole, made.data, sizeof whole);
+    for (int32_t count = 2; count <= WORKERS_MAX; count++) {
+        for (int32_t index = count - 1; index >= 0; index--) {
+            const share_t rows = share_of((worker_t){index, count}, 13);
+            memset(made.data, 0xa5, sizeof whole);
+            levels_make(&levels, &picture, level, (worker_t){index, count});
+            for (int32_t k = 0; k < (int32_t)sizeof whole; k++) {
+                const bool own = k / (19 * 4) >= rows.begin && k / (19 * 4) < rows.end;
+                assert_int_equal(made.data[k], own ? whole[k] : 0xa5);
+            }
+        }
+    }
 }
 
 static void the_largest_picture_fits(void **state)
@@ -68,13 +79,9 @@ static void the_largest_picture_fits(void **state)
     (void)state;
     const image_t largest = {NULL, IMAGE_MAX_WIDTH, IMAGE_MAX_HEIGHT, 0, IMAGE_XRGB8888};
     const uint8_t *end = levels.pixels;
-    levels_begin(&levels);
-    for (int lx = 0; lx < LEVELS; lx++)
-        for (int ly = 0; ly < LEVELS; ly++)
-            levels.made[lx][ly] = true; /* views only: nothing is read */
     for (int lx = 0; lx < LEVELS; lx++) {
         for (int ly = lx == 0 ? 1 : 0; ly < LEVELS; ly++) {
-            const image_t level = levels_picture(&levels, &largest, lx, ly);
+            const image_t level = levels_picture(&levels, &largest, (level_t){lx, ly, 0});
             assert_ptr_equal(level.data, end); /* each right behind the last: none overlaps another */
             end = level.data + (ptrdiff_t)level.stride * level.height;
         }
@@ -101,7 +108,7 @@ static void blocks_read_levels_of_their_own(void **state)
         assert_true(warp_frame(&warp, &warp_kernels_scalar, NULL, &homography, &panel, &picture));
         for (int32_t n = 0; n < SIZE * SIZE; n++) {
             int32_t x, y;
-            if (!grid_point(&warp.grid, n % SIZE, n / SIZE, &x, &y))
+            if (!grid_point(&warp.plane[0].grid, n % SIZE, n / SIZE, &x, &y))
                 continue;
             const double px = fmin(fmax(ldexp(x, -18), 0), WIDTH), py = fmin(fmax(ldexp(y, -18), 0), HEIGHT);
             const double expected = 20 + px * 100 / WIDTH + py * 100 / HEIGHT;
@@ -116,7 +123,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(levels_are_means),
-        cmocka_unit_test(levels_are_made_once_a_frame),
+        cmocka_unit_test(workers_share_the_rows),
         cmocka_unit_test(the_largest_picture_fits),
         cmocka_unit_test(blocks_read_levels_of_their_own),
     };

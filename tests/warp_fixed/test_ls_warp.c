@@ -48,7 +48,7 @@ static void check_frame(int view, image_format_t format, int32_t k_of(const warp
     for (int32_t n = 0; n < WIDTH * HEIGHT; n++) {
         int32_t x, y;
         uint8_t expected[4] = {0};
-        if (grid_point(&warp.grid, n % WIDTH, n / WIDTH, &x, &y)) {
+        if (grid_point(&warp.plane[0].grid, n % WIDTH, n / WIDTH, &x, &y)) {
             const bool gray = format == IMAGE_GRAY8;
             resample_ls_fn *evaluate = gray ? warp_kernels_scalar.ls_gray : warp_kernels_scalar.ls_xrgb;
             const patch_t patch = {expected, 0, &x, &y, 1, 1};

@@ -22,6 +22,19 @@ enum { WIDTH = 61, HEIGHT = 47 };
 
 static prefilter_t prefilter;
 
+static coefficients_t coefficients_of(const image_t *picture)
+{
+    const level_t whole = {0, 0, 0};
+    prefilter_make_coefficients(&prefilter, &warp_kernels_scalar, picture, whole, only_worker);
+    return prefilter_coefficients(&prefilter, picture, whole);
+}
+
+static image_t pixels_of(const image_t *picture)
+{
+    prefilter_make_pixels(&prefilter, &warp_kernels_scalar, picture, 0, only_worker);
+    return prefilter_pixels(&prefilter, picture, 0);
+}
+
 /* The weights that make spline coefficients, in place. @return the new radius. */
 static int with_splines(double taps[PREFILTER_MAX_RADIUS + 1], int radius)
 {
@@ -111,10 +124,10 @@ static double worst_difference(warp_filter_t filter, int32_t k_q16, int channels
         const double expected = float_filtered(&fir, pixels, channels, at);
         assert_true(prefilter_begin(&prefilter, filter, k_q16, false));
         if (c % 2 == 0) {
-            const coefficients_t out = prefilter_coefficients(&prefilter, &warp_kernels_scalar, &picture, 0, 0);
+            const coefficients_t out = coefficients_of(&picture);
             worst = fmax(worst, fabs(COEFFICIENT_MIDDLE + out.data[place] / 16.0 - expected));
         } else {
-            const image_t out = prefilter_pixels(&prefilter, &warp_kernels_scalar, &picture);
+            const image_t out = pixels_of(&picture);
             worst = fmax(worst, fabs(out.data[place] - fmax(0, fmin(255, expected))) - 0.5);
         }
     }
@@ -156,11 +169,11 @@ static void overshoot_saturates(void **state)
         }
         prefilter_init(&prefilter);
         assert_true(prefilter_begin(&prefilter, WARP_FILTER_KAISER, k_q16, false));
-        const image_t out = prefilter_pixels(&prefilter, &warp_kernels_scalar, &picture);
+        const image_t out = pixels_of(&picture);
         assert_int_equal(image_row(&out, HEIGHT / 2)[WIDTH / 2], 255);
         for (int i = 0; i < WIDTH * HEIGHT; i++)
             pixels[i] = (uint8_t)(255 - pixels[i]);
-        (void)prefilter_pixels(&prefilter, &warp_kernels_scalar, &picture);
+        (void)pixels_of(&picture);
         assert_int_equal(image_row(&out, HEIGHT / 2)[WIDTH / 2], 0);
     }
 }
@@ -180,10 +193,10 @@ static void small_k_and_constants_pass(void **state)
         memset(pixels, level, sizeof(pixels));
         const int32_t k_q16 = (1 << 16) + 1 + level * 999;
         assert_true(prefilter_begin(&prefilter, (warp_filter_t)(1 + level % 3), k_q16, level % 2 == 0));
-        const coefficients_t out = prefilter_coefficients(&prefilter, &warp_kernels_scalar, &picture, 0, 0);
+        const coefficients_t out = coefficients_of(&picture);
         for (int i = 0; i < WIDTH * HEIGHT; i++)
             assert_int_equal(out.data[i], (level - COEFFICIENT_MIDDLE) * 16);
-        const image_t bytes = prefilter_pixels(&prefilter, &warp_kernels_scalar, &picture);
+        const image_t bytes = pixels_of(&picture);
         for (int i = 0; i < WIDTH * HEIGHT; i++)
             assert_int_equal(bytes.data[i], level);
     }

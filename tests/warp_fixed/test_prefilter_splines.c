@@ -19,6 +19,12 @@
 enum { MAX_WIDTH = 90, MAX_HEIGHT = 70 };
 
 static prefilter_t prefilter;
+
+static coefficients_t coefficients_of(const image_t *picture, level_t level)
+{
+    prefilter_make_coefficients(&prefilter, &warp_kernels_scalar, picture, level, only_worker);
+    return prefilter_coefficients(&prefilter, picture, level);
+}
 static uint8_t pixels[MAX_WIDTH * MAX_HEIGHT * 4];
 
 static image_t picture_of(int32_t width, int32_t height, image_format_t format)
@@ -58,7 +64,7 @@ static void the_spline_goes_through_the_pixels(void **state)
                                   : seed % 3 == 1 ? rng_int(&rng, 0, 255)
                                                   : (k / channels + k / channels / width) % 2 * 255);
         (void)prefilter_begin(&prefilter, WARP_FILTER_NONE, 0, true);
-        const coefficients_t made = prefilter_coefficients(&prefilter, &warp_kernels_scalar, &picture, 0, 0);
+        const coefficients_t made = coefficients_of(&picture, (level_t){0, 0, 0});
         for (int32_t k = 0; k < width * height * channels; k++) {
             const int32_t x = k / channels % width, y = k / channels / width, channel = k % channels;
             const double error = fabs(value_at(&made, x, y, channel) - pixels[k]);
@@ -80,39 +86,30 @@ static void the_worst_picture_fits(void **state)
         for (int32_t k = 0; k < 41 * 41; k++)
             pixels[k] = (k % 41 + k / 41) % 2 == sign ? 255 : 0;
         (void)prefilter_begin(&prefilter, WARP_FILTER_NONE, 0, true);
-        const coefficients_t made = prefilter_coefficients(&prefilter, &warp_kernels_scalar, &picture, 0, 0);
+        const coefficients_t made = coefficients_of(&picture, (level_t){0, 0, 0});
         const double expected = 127.5 + (sign == 0 ? 9 : -9) * 127.5;
         assert_true(fabs(coefficient(&made, 20, 20, 0) - expected) < 0.2);
     }
 }
 
-/* A level of a picture whose every pixel is `grey`, unless its coefficients are kept. */
-static coefficients_t level_of(int n, int grey)
-{
-    const int level_x = n / LEVELS, level_y = n % LEVELS;
-    const image_t picture = picture_of(MAX_WIDTH >> 3 * level_x, MAX_HEIGHT >> 3 * level_y, IMAGE_GRAY8);
-    memset(pixels, grey, sizeof pixels);
-    return prefilter_coefficients(&prefilter, &warp_kernels_scalar, &picture, level_x, level_y);
-}
-
-static void check_level(int n, int grey, int expected)
-{
-    const coefficients_t made = level_of(n, grey);
-    for (int32_t k = 0; k < made.width * made.height; k++)
-        if (made.data[k] != (expected - COEFFICIENT_MIDDLE) * 16)
-            fail_msg("level %d, %d: %d at %d, expected grey %d", n / LEVELS, n % LEVELS, made.data[k], k, expected);
-}
-
-/* Each level is made once in a frame, from the picture given, and the others stay. */
+/* Each level has a place of its own: all of them, made one after the other, are there at the end. */
 static void levels_have_their_own(void **state)
 {
     (void)state;
-    for (int frame = 0; frame < 2; frame++) {
-        (void)prefilter_begin(&prefilter, WARP_FILTER_NONE, 0, true);
-        for (int n = 0; n < LEVELS * LEVELS; n++)
-            check_level(n, 50 + 20 * n + frame, 50 + 20 * n + frame);
-        for (int n = 0; n < LEVELS * LEVELS; n++)
-            check_level(n, 7, 50 + 20 * n + frame);
+    (void)prefilter_begin(&prefilter, WARP_FILTER_NONE, 0, true);
+    for (int n = 0; n < LEVELS * LEVELS; n++) {
+        const level_t level = {n / LEVELS, n % LEVELS, 0};
+        const image_t picture = picture_of(MAX_WIDTH >> 3 * level.x, MAX_HEIGHT >> 3 * level.y, IMAGE_GRAY8);
+        memset(pixels, 50 + 20 * n, sizeof pixels);
+        (void)coefficients_of(&picture, level);
+    }
+    for (int n = 0; n < LEVELS * LEVELS; n++) {
+        const level_t level = {n / LEVELS, n % LEVELS, 0};
+        const image_t picture = picture_of(MAX_WIDTH >> 3 * level.x, MAX_HEIGHT >> 3 * level.y, IMAGE_GRAY8);
+        const coefficients_t made = prefilter_coefficients(&prefilter, &picture, level);
+        for (int32_t k = 0; k < made.width * made.height; k++)
+            if (made.data[k] != (50 + 20 * n - COEFFICIENT_MIDDLE) * 16)
+                fail_msg("level %d, %d: %d at %d", level.x, level.y, made.data[k], k);
     }
 }
 

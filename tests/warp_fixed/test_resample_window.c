@@ -90,8 +90,11 @@ static void make_coefficients(warp_resampler_t resampler)
 {
     const image_t picture = {gray, WIDTH, HEIGHT, WIDTH, IMAGE_GRAY8};
     const int16_t *spline = NULL;
-    if (prefilter_begin(&prefilter, WARP_FILTER_NONE, 0, warp_splines(resampler)))
-        spline = prefilter_coefficients(&prefilter, &warp_kernels_scalar, &picture, 0, 0).data;
+    if (prefilter_begin(&prefilter, WARP_FILTER_NONE, 0, warp_splines(resampler))) {
+        const level_t whole = {0, 0, 0};
+        prefilter_make_coefficients(&prefilter, &warp_kernels_scalar, &picture, whole, only_worker);
+        spline = prefilter_coefficients(&prefilter, &picture, whole).data;
+    }
     for (int k = 0; k < WIDTH * HEIGHT; k++) {
         gray_coefficients[k] = (int16_t)(spline != NULL ? spline[k] : (gray[k] - COEFFICIENT_MIDDLE) * 16);
         for (int channel = 0; channel < 4; channel++)

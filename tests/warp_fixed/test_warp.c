@@ -92,7 +92,7 @@ static void check_frame(uint64_t seed, const warp_method_t *method, image_format
         for (int32_t i = 0; i < h.panel_width; i++) {
             const uint8_t *pixel = image_row(&panel.image, j) + i * (int32_t)format;
             int32_t x, y;
-            const bool is_lit = grid_point(&warp.grid, i, j, &x, &y);
+            const bool is_lit = grid_point(&warp.plane[0].grid, i, j, &x, &y);
             const bool is_border = memcmp(pixel, border_bytes, format) == 0;
             lit += is_lit;
             if (is_border == is_lit)

@@ -119,7 +119,7 @@ test_live_run() {
 
 test_firmware() {
     "$build/wallwarp" "$scratch/classic.yaml" --node 1 --can 0 --camera $picture --display "$scratch/display" \
-        2>"$scratch/wallwarp.err" &
+        --workers 2 2>"$scratch/wallwarp.err" &
     id=$!
     started="$started $id"
     port=$(port_in "$scratch/wallwarp.err")
@@ -138,6 +138,7 @@ test_firmware() {
     refuses 2 "1 to 63" "$build/wallwarp" "$scratch/fd.yaml" --node 64
     refuses 2 "1 to 63" "$build/wallwarp" "$scratch/fd.yaml" --node 1x
     refuses 2 "scalar or neon" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --kernels sse
+    refuses 2 "1 to 4" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --workers 5
     refuses 2 "one room file" "$build/wallwarp" "$scratch/fd.yaml" "$scratch/fd.yaml" --node 1
     refuses 1 "no board has node 9" "$build/wallwarp" "$scratch/fd.yaml" --node 9
     refuses 1 "missing.yaml" "$build/wallwarp" "$scratch/missing.yaml" --node 1
