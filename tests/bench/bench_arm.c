@@ -6,13 +6,15 @@
 // Picture and poses are those of workload.h. What is between the markers:
 //   grid            grid_from_homography(), then the points of every lit pixel, 64 columns at a time, stored;
 //   gauss, kaiser   prefilter_make_coefficients() of the picture with 7 taps, known before;
-//   all others      warp_frame() of the method. bench_arm.sh leaves parts of it out, but not for frame:*.
+//   all others      a frame of the method, as warp_frame(). bench_arm.sh leaves parts of it out, but not for frame:*.
+// FORMAT nv12 is luma and chroma of picture and panel, all per pixel of the luma.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "tests/bench/markers.h"
 #include "tests/bench/workload.h"
+#include "warp_fixed/homography_of_chroma.h"
 #include "warp_fixed/warp.h"
 
 typedef struct {
@@ -55,44 +57,70 @@ static const void *find(const char *what, const char *name, const void *table, s
     exit(2);
 }
 
-static void run_grid(const warp_kernels_t *kernels, const homography_t *homography)
+/* A picture or panel in `bytes`. */
+static picture_t picture_in(uint8_t *bytes, const char *format)
 {
-    grid_t *grid = &warp.plane[0].grid;
+    if (strcmp(format, "nv12") == 0)
+        return (picture_t){.format = PICTURE_NV12,
+                           .width = BENCH_WIDTH,
+                           .height = BENCH_HEIGHT,
+                           .data = {bytes, bytes + BENCH_PIXELS},
+                           .stride = {BENCH_WIDTH, BENCH_WIDTH}};
+    const bench_format_t *found = find("format", format, bench_formats, BENCH_FORMATS, sizeof *bench_formats);
+    const image_t image = bench_image(bytes, found->format);
+    return picture_from_image(&image);
+}
+
+static int planes_of(const picture_t *picture)
+{
+    return picture_is_yuv(picture->format) ? 2 : 1;
+}
+
+static void run_grid(const warp_kernels_t *kernels, const homography_t *homography, int planes)
+{
+    homography_t plane[2] = {*homography};
+    homography_of_chroma(&plane[1], homography, (chroma_log2_t){1, 1}, (chroma_log2_t){1, 1});
     bench_begin();
-    grid_from_homography(grid, homography);
-    for (int32_t j = 0; j < BENCH_HEIGHT; j++) {
-        const grid_row_cursor_t row = grid_row_cursor(grid, j);
-        int32_t *x_q18 = &points_x_q18[j * BENCH_WIDTH], *y_q18 = &points_y_q18[j * BENCH_WIDTH];
-        for (int32_t begin = row.row.begin; begin < row.row.end;) {
-            const int32_t end = grid_row_tile_end(row.row, begin);
-            kernels->grid_points(x_q18 + begin, y_q18 + begin, &row, begin, end);
-            begin = end;
+    for (int p = 0; p < planes; p++) {
+        grid_t *grid = &warp.plane[p].grid;
+        grid_from_homography(grid, &plane[p]);
+        for (int32_t j = 0; j < plane[p].panel_height; j++) {
+            const grid_row_cursor_t row = grid_row_cursor(grid, j);
+            int32_t *x_q18 = &points_x_q18[j * BENCH_WIDTH], *y_q18 = &points_y_q18[j * BENCH_WIDTH];
+            for (int32_t begin = row.row.begin; begin < row.row.end;) {
+                const int32_t end = grid_row_tile_end(row.row, begin);
+                kernels->grid_points(x_q18 + begin, y_q18 + begin, &row, begin, end);
+                begin = end;
+            }
         }
     }
     bench_end();
 }
 
-static bool run_prefilter(const warp_kernels_t *kernels, const image_t *picture, warp_filter_t filter)
+static bool run_prefilter(const warp_kernels_t *kernels, const picture_t *picture, warp_filter_t filter)
 {
     if (!bench_seven_taps(&warp.prefilter, filter))
         return false;
     bench_begin();
-    const level_t whole = {0, 0, 0};
-    prefilter_make_coefficients(&warp.prefilter, kernels, picture, whole, only_worker);
-    const coefficients_t filtered = prefilter_coefficients(&warp.prefilter, picture, whole);
+    for (int p = 0; p < planes_of(picture); p++) {
+        const image_t plane = picture_plane(picture, p);
+        prefilter_make_coefficients(&warp.prefilter, kernels, &plane, (level_t){0, 0, p}, only_worker);
+    }
     bench_end();
-    return filtered.width == picture->width;
+    return true;
 }
 
-static bool run_frame(const warp_kernels_t *kernels, const homography_t *homography, const image_t *picture,
-                      const char *method)
+static bool run_frame(const warp_kernels_t *kernels, const homography_t *homography, const picture_t *picture,
+                      const picture_t *panel, const char *method)
 {
     const uint8_t border[3] = {0, 0, 0};
-    const image_t panel = bench_image(panel_bytes, picture->format);
     warp_report_t report = {0};
     warp_init(&warp, *warp_method_from_name(method), false, border);
     bench_begin();
-    const bool made = warp_frame(&warp, kernels, &report, homography, &panel, picture);
+    const bool made = warp_plan(&warp, kernels, &report, homography, panel, picture);
+    for (warp_step_t step = WARP_TAKE; made && step <= WARP_DRAW; step++)
+        if (warp_needs(&warp, step))
+            warp_work(&warp, step, only_worker);
     bench_end();
     fprintf(stderr, "bench_arm: %.1f %% of the panel is lit\n", 100.0 * report.lit_pixels / BENCH_PIXELS);
     return made;
@@ -105,7 +133,6 @@ int main(int argc, char **argv)
         return 2;
     }
     const bench_case_t *work = find("case", argv[1], cases, sizeof cases / sizeof *cases, sizeof *cases);
-    const bench_format_t *format = find("format", argv[2], bench_formats, BENCH_FORMATS, sizeof *bench_formats);
     const bench_pose_t *pose = find("pose", argv[3], bench_poses, BENCH_POSES, sizeof *bench_poses);
     const warp_kernels_t *kernels = warp_kernels_from_name(argv[4]);
     if (kernels == NULL) {
@@ -113,16 +140,19 @@ int main(int argc, char **argv)
         return 2;
     }
 
-    const image_t picture = bench_image(picture_bytes, format->format);
+    const picture_t picture = picture_in(picture_bytes, argv[2]), panel = picture_in(panel_bytes, argv[2]);
     const homography_t homography = bench_homography(pose->rows);
-    bench_paint(&picture);
+    for (int p = 0; p < planes_of(&picture); p++) {
+        const image_t plane = picture_plane(&picture, p);
+        bench_paint(&plane);
+    }
     bool made = true;
     if (work->method != NULL)
-        made = run_frame(kernels, &homography, &picture, work->method);
+        made = run_frame(kernels, &homography, &picture, &panel, work->method);
     else if (work->filter != WARP_FILTER_NONE)
         made = run_prefilter(kernels, &picture, work->filter);
     else
-        run_grid(kernels, &homography);
+        run_grid(kernels, &homography, planes_of(&picture));
     if (!made) {
         fprintf(stderr, "bench_arm: the work was not done\n");
         return 1;

@@ -14,7 +14,7 @@ kernels=$4
 baseline=${5-}
 in_tree=tests/bench/baseline.csv
 cases='grid nearest linear cubic spline area mean+cubic mean+spline ls gauss kaiser frame:area frame:mean+cubic'
-formats='gray xrgb'
+formats='gray xrgb nv12'
 poses='strong mild'
 
 rm -rf "$scratch"
