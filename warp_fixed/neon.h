@@ -5,6 +5,9 @@
 #ifndef WARP_FIXED_NEON_H
 #define WARP_FIXED_NEON_H
 
+#include <stddef.h>
+#include <stdint.h>
+
 #ifdef __aarch64__
 #include <arm_neon.h>
 #else
@@ -22,6 +25,26 @@
 #define NEON_INLINE static inline
 #endif
 
+/**
+ * Store what is to be read number by number.
+ *
+ * gcc would move every lane to its register by itself, some by way of another vector, instead of loading two at once:
+ * it must not know what is in memory.
+ */
+static inline void store_numbers(uint32_t to[4], uint32x4_t numbers)
+{
+    vst1q_u32(to, numbers);
+    __asm__("" : "+m"(*(uint32_t(*)[4])to));
+}
+
+/** @return A stored number as an offset; gcc would extend it anew in every address, which costs a cycle each. */
+static inline size_t stored_offset(const uint32_t *number)
+{
+    size_t offset = *number;
+    __asm__("" : "+r"(offset));
+    return offset;
+}
+
 /** @return Four bytes, each of them in all lanes of one vector. */
 static inline uint8x16x4_t load_4_splats(const uint8_t *bytes)
 {
@@ -29,6 +52,16 @@ static inline uint8x16x4_t load_4_splats(const uint8_t *bytes)
     return vld4q_dup_u8(bytes);
 #else
     return (uint8x16x4_t){{vdupq_n_u8(bytes[0]), vdupq_n_u8(bytes[1]), vdupq_n_u8(bytes[2]), vdupq_n_u8(bytes[3])}};
+#endif
+}
+
+/** @return The same in short vectors, which cost fewer micro-operations. */
+static inline uint8x8x4_t load_4_short_splats(const uint8_t *bytes)
+{
+#ifdef __aarch64__
+    return vld4_dup_u8(bytes);
+#else
+    return (uint8x8x4_t){{vdup_n_u8(bytes[0]), vdup_n_u8(bytes[1]), vdup_n_u8(bytes[2]), vdup_n_u8(bytes[3])}};
 #endif
 }
 

@@ -35,7 +35,7 @@ NEON_INLINE int16x8_t eight_coefficients(const uint8_t *at)
               vmlal_lane_s16((sums).high, vget_high_s16(values), weights, lane)})
 
 /* Eight columns of ny rows, weighed. Halves that nobody reads cost nothing. */
-NEON_INLINE int16x8_t weigh_columns(const uint8_t *const *rows, uint32_t at, int16x8_t weights, int32_t ny)
+NEON_INLINE int16x8_t weigh_columns(const uint8_t *const *rows, size_t at, int16x8_t weights, int32_t ny)
 {
     const int16x4_t upper = vget_low_s16(weights), lower = vget_high_s16(weights);
     const int16x8_t top = eight_coefficients(rows[0] + at);
@@ -57,7 +57,7 @@ NEON_INLINE int16x8_t weigh_columns(const uint8_t *const *rows, uint32_t at, int
 }
 
 /* Second-pass sums of the four channels of a pixel. A vector of columns has two pixels. */
-NEON_INLINE int32x4_t weigh_xrgb(const uint8_t *const *rows, uint32_t at, int16x8_t first, int32_t ny, int16x8_t second,
+NEON_INLINE int32x4_t weigh_xrgb(const uint8_t *const *rows, size_t at, int16x8_t first, int32_t ny, int16x8_t second,
                                  int32_t nx)
 {
     const int16x4_t left = vget_low_s16(second), right = vget_high_s16(second);
@@ -82,7 +82,7 @@ NEON_INLINE int32x4_t weigh_xrgb(const uint8_t *const *rows, uint32_t at, int16x
 }
 
 /* Second-pass sums of a pixel, to be added up. */
-NEON_INLINE int32x4_t weigh_gray(const uint8_t *const *rows, uint32_t at, int16x8_t first, int32_t ny, int16x8_t second,
+NEON_INLINE int32x4_t weigh_gray(const uint8_t *const *rows, size_t at, int16x8_t first, int32_t ny, int16x8_t second,
                                  int32_t nx)
 {
     const int16x8_t v = weigh_columns(rows, at, first, ny);
@@ -100,10 +100,10 @@ typedef struct {
 NEON_INLINE int32x4_t weigh_pixel(const uint8_t *const *rows, const patch_tables_t *tables, const window_step_t *step,
                                   int i, int32_t nx, int32_t ny, int32_t channels)
 {
-    const int16x8_t first = vld1q_s16(tables->first + step->row_y[i]);
-    const int16x8_t second = vreinterpretq_s16_u8(vld1q_u8(tables->second + step->row_x[i]));
-    return channels == 1 ? weigh_gray(rows, step->texel[i], first, ny, second, nx)
-                         : weigh_xrgb(rows, step->texel[i], first, ny, second, nx);
+    const int16x8_t first = vld1q_s16(tables->first + stored_offset(&step->row_y[i]));
+    const int16x8_t second = vreinterpretq_s16_u8(vld1q_u8(tables->second + stored_offset(&step->row_x[i])));
+    return channels == 1 ? weigh_gray(rows, stored_offset(&step->texel[i]), first, ny, second, nx)
+                         : weigh_xrgb(rows, stored_offset(&step->texel[i]), first, ny, second, nx);
 }
 
 /* As pixel_from_centred(): the middle grey goes in before the shift, which is made in two (the second saturates). */

@@ -5,7 +5,7 @@
 
 #include "warp_fixed/window_patch_neon.h"
 
-enum { RESAMPLE_LINEAR_GRAY_STEP = 8 };
+enum { RESAMPLE_LINEAR_STEP = 8 };
 
 weigh_patch_fn resample_linear_gray_neon;
 weigh_patch_fn resample_linear_xrgb_neon;

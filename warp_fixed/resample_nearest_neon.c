@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nearest neighbour: addresses of four pixels at a time.
+// Nearest neighbour: eight pixels at a time.
 #include <stdbool.h>
 #include <string.h>
 
@@ -8,6 +8,8 @@
 #include "warp_fixed/kernels_scalar.h"
 #include "warp_fixed/neon.h"
 #include "warp_fixed/window_patch_neon.h"
+
+enum { STEP = 8 };
 
 /* What the pixels of a picture share. */
 typedef struct {
@@ -30,26 +32,31 @@ NEON_INLINE uint32x4_t offsets(const pixels_t *from, const int32_t *x_q18, const
 
 NEON_INLINE void copy_four(uint8_t *out, const pixels_t *from, uint32x4_t offset)
 {
-    uint32_t at[PATCH_STEP];
+    uint32_t at[4];
     vst1q_u32(at, offset);
-    for (int i = 0; i < PATCH_STEP; i++)
+    for (int i = 0; i < 4; i++)
         memcpy(out + (i << from->pixel_log2), from->data + at[i], (size_t)1 << from->pixel_log2);
 }
 
-/* Rows of at least one step; where need be, the last one begins within the one before. */
+NEON_INLINE void copy_eight(uint8_t *out, const pixels_t *from, const int32_t *x_q18, const int32_t *y_q18, bool inside)
+{
+    copy_four(out, from, offsets(from, x_q18, y_q18, inside));
+    copy_four(out + (4 << from->pixel_log2), from, offsets(from, x_q18 + 4, y_q18 + 4, inside));
+}
+
+/* Rows of at least STEP pixels; where need be, the last step begins within the one before. */
 NEON_INLINE void copy_patch(const patch_t *patch, const pixels_t *from, bool inside)
 {
-    const int32_t width = patch->width, height = patch->height, whole = width & -PATCH_STEP;
+    const int32_t width = patch->width, height = patch->height, rest = width % STEP, back = STEP - rest;
     for (int32_t r = 0; r < height; r++) {
         const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
         uint8_t *out = patch->out + r * patch->stride;
-        for (const int32_t *end = x_q18 + whole; x_q18 < end; x_q18 += PATCH_STEP, y_q18 += PATCH_STEP) {
-            copy_four(out, from, offsets(from, x_q18, y_q18, inside));
-            out += PATCH_STEP << from->pixel_log2;
+        for (const int32_t *end = x_q18 + width - rest; x_q18 < end; x_q18 += STEP, y_q18 += STEP) {
+            copy_eight(out, from, x_q18, y_q18, inside);
+            out += STEP << from->pixel_log2;
         }
-        const int32_t back = PATCH_STEP - (width - whole);
-        if (back < PATCH_STEP)
-            copy_four(out - (back << from->pixel_log2), from, offsets(from, x_q18 - back, y_q18 - back, inside));
+        if (rest != 0)
+            copy_eight(out - (back << from->pixel_log2), from, x_q18 - back, y_q18 - back, inside);
     }
 }
 
@@ -64,7 +71,7 @@ NEON_INLINE void nearest(const patch_t *patch, const image_t *picture, int pixel
 
 static bool suits(const patch_t *patch, const image_t *picture)
 {
-    return patch->width >= PATCH_STEP && patch->height > 0 && offsets_fit(picture->stride, picture->height);
+    return patch->width >= STEP && patch->height > 0 && offsets_fit(picture->stride, picture->height);
 }
 
 void resample_nearest_gray_neon(const patch_t *patch, const image_t *picture)

@@ -11,6 +11,7 @@
 #include "warp_fixed/fixed.h"
 #include "warp_fixed/kernels_neon.h"
 #include "warp_fixed/kernels_scalar.h"
+#include "warp_fixed/resample_cubic_neon.h"
 #include "warp_fixed/resample_linear_neon.h"
 #include "warp_fixed/resample_long_neon.h"
 #include "warp_fixed/window_patch_neon.h"
@@ -26,6 +27,10 @@ typedef struct {
     uint8x16_t row[WINDOW_SHORT_TAPS];
 } splats_t;
 
+typedef struct {
+    uint8x8_t row[WINDOW_SHORT_TAPS];
+} short_splats_t;
+
 NEON_INLINE splats_t load_splats(const uint8_t *first, int32_t ny)
 {
     splats_t splats;
@@ -36,6 +41,22 @@ NEON_INLINE splats_t load_splats(const uint8_t *first, int32_t ny)
         splats.row[4] = vld1q_dup_u8(first + 4);
     } else if (ny > 5) {
         const uint8x16x4_t below = load_4_splats(first + 4);
+        for (int t = 0; t < 4; t++)
+            splats.row[4 + t] = below.val[t];
+    }
+    return splats;
+}
+
+NEON_INLINE short_splats_t load_short_splats(const uint8_t *first, int32_t ny)
+{
+    short_splats_t splats;
+    const uint8x8x4_t above = load_4_short_splats(first);
+    for (int t = 0; t < 4; t++)
+        splats.row[t] = above.val[t];
+    if (ny == 5) {
+        splats.row[4] = vld1_dup_u8(first + 4);
+    } else if (ny > 5) {
+        const uint8x8x4_t below = load_4_short_splats(first + 4);
         for (int t = 0; t < 4; t++)
             splats.row[4 + t] = below.val[t];
     }
@@ -148,14 +169,18 @@ NEON_INLINE void patch_xrgb(const patch_t *patch, const window_t *window, const 
         uint8_t *out = patch->out + r * patch->stride;
         for (const int32_t *end = x_q18 + width; x_q18 < end; x_q18 += PATCH_STEP, y_q18 += PATCH_STEP) {
             const window_step_t step = window_step(&from, x_q18, y_q18, 2);
-            const int32x4_t a = weigh_xrgb(from.data + step.texel[0], stride, first + step.row_y[0], ny,
-                                           second + step.row_x[0], nx, negative);
-            const int32x4_t b = weigh_xrgb(from.data + step.texel[1], stride, first + step.row_y[1], ny,
-                                           second + step.row_x[1], nx, negative);
-            const int32x4_t c = weigh_xrgb(from.data + step.texel[2], stride, first + step.row_y[2], ny,
-                                           second + step.row_x[2], nx, negative);
-            const int32x4_t d = weigh_xrgb(from.data + step.texel[3], stride, first + step.row_y[3], ny,
-                                           second + step.row_x[3], nx, negative);
+            const int32x4_t a =
+                weigh_xrgb(from.data + stored_offset(&step.texel[0]), stride, first + stored_offset(&step.row_y[0]), ny,
+                           second + stored_offset(&step.row_x[0]), nx, negative);
+            const int32x4_t b =
+                weigh_xrgb(from.data + stored_offset(&step.texel[1]), stride, first + stored_offset(&step.row_y[1]), ny,
+                           second + stored_offset(&step.row_x[1]), nx, negative);
+            const int32x4_t c =
+                weigh_xrgb(from.data + stored_offset(&step.texel[2]), stride, first + stored_offset(&step.row_y[2]), ny,
+                           second + stored_offset(&step.row_x[2]), nx, negative);
+            const int32x4_t d =
+                weigh_xrgb(from.data + stored_offset(&step.texel[3]), stride, first + stored_offset(&step.row_y[3]), ny,
+                           second + stored_offset(&step.row_x[3]), nx, negative);
             vst1q_u8(out, vcombine_u8(pixels_from_sums(a, b, negative), pixels_from_sums(c, d, negative)));
             out += 4 * PATCH_STEP;
         }
@@ -289,10 +314,10 @@ static weigh_patch_fn *const negative_xrgb[WINDOW_SHORT_TAPS + 1] = {
 NEON_INLINE int32x4_t weigh_gray(const uint8_t *texels, ptrdiff_t stride, const uint8_t *first, int32_t ny,
                                  const uint8_t *second, bool negative)
 {
-    const splats_t splats = load_splats(first, ny);
-    int16x8_t v = products(vld1_u8(texels), vget_low_u8(splats.row[0]), negative);
+    const short_splats_t splats = load_short_splats(first, ny);
+    int16x8_t v = products(vld1_u8(texels), splats.row[0], negative);
     for (int t = 1; t < ny; t++)
-        v = add_products(v, vld1_u8(texels + t * stride), vget_low_u8(splats.row[t]), negative);
+        v = add_products(v, vld1_u8(texels + t * stride), splats.row[t], negative);
     const int16x8_t weights = vreinterpretq_s16_u8(vld1q_u8(second));
     if (negative)
         return vmlal_high_s16(vmull_s16(vget_low_s16(v), vget_low_s16(weights)), v, weights);
@@ -313,14 +338,18 @@ NEON_INLINE void patch_gray(const patch_t *patch, const window_t *window, const 
         uint8_t *out = patch->out + r * patch->stride;
         for (const int32_t *end = x_q18 + width; x_q18 < end; x_q18 += PATCH_STEP, y_q18 += PATCH_STEP) {
             const window_step_t step = window_step(&from, x_q18, y_q18, 0);
-            const int32x4_t a = weigh_gray(from.data + step.texel[0], stride, first + step.row_y[0], ny,
-                                           second + step.row_x[0], negative);
-            const int32x4_t b = weigh_gray(from.data + step.texel[1], stride, first + step.row_y[1], ny,
-                                           second + step.row_x[1], negative);
-            const int32x4_t c = weigh_gray(from.data + step.texel[2], stride, first + step.row_y[2], ny,
-                                           second + step.row_x[2], negative);
-            const int32x4_t d = weigh_gray(from.data + step.texel[3], stride, first + step.row_y[3], ny,
-                                           second + step.row_x[3], negative);
+            const int32x4_t a =
+                weigh_gray(from.data + stored_offset(&step.texel[0]), stride, first + stored_offset(&step.row_y[0]), ny,
+                           second + stored_offset(&step.row_x[0]), negative);
+            const int32x4_t b =
+                weigh_gray(from.data + stored_offset(&step.texel[1]), stride, first + stored_offset(&step.row_y[1]), ny,
+                           second + stored_offset(&step.row_x[1]), negative);
+            const int32x4_t c =
+                weigh_gray(from.data + stored_offset(&step.texel[2]), stride, first + stored_offset(&step.row_y[2]), ny,
+                           second + stored_offset(&step.row_x[2]), negative);
+            const int32x4_t d =
+                weigh_gray(from.data + stored_offset(&step.texel[3]), stride, first + stored_offset(&step.row_y[3]), ny,
+                           second + stored_offset(&step.row_x[3]), negative);
             const int32x4_t four = vpaddq_s32(vpaddq_s32(a, b), vpaddq_s32(c, d));
             const uint8x8_t pixels = pixels_from_sums(four, four, negative);
             memcpy(out, &pixels, PATCH_STEP);
@@ -369,6 +398,11 @@ static bool is_short(const window_t *window)
     return window->x.taps <= WINDOW_SHORT_TAPS && window->y.taps <= WINDOW_SHORT_TAPS;
 }
 
+static bool is_cubic(const window_t *window)
+{
+    return window->x.negative && window->x.taps == CUBIC_TAPS && window->y.taps == CUBIC_TAPS;
+}
+
 static texels_t texels_of(const image_t *picture)
 {
     return (texels_t){picture->data, picture->width, picture->height, picture->stride, (int32_t)picture->format};
@@ -392,8 +426,13 @@ void resample_window_xrgb_neon(const patch_t *patch, const window_t *window)
             .step = PATCH_STEP,
             .centred = negative,
         };
-        if (window->x.resampler == WARP_LINEAR)
+        if (window->x.resampler == WARP_LINEAR) {
             loop.weigh = resample_linear_xrgb_neon;
+            loop.step = RESAMPLE_LINEAR_STEP;
+        } else if (is_cubic(window)) {
+            loop.weigh = resample_cubic_xrgb_neon;
+            loop.centred = false;
+        }
         weigh_anywhere(patch, window, &texels, &loop);
     }
 }
@@ -418,7 +457,10 @@ void resample_window_gray_neon(const patch_t *patch, const window_t *window)
         if (window->x.resampler == WARP_LINEAR) {
             loop.weigh = resample_linear_gray_neon;
             loop.taps_x = MIN_TAPS;
-            loop.step = RESAMPLE_LINEAR_GRAY_STEP;
+            loop.step = RESAMPLE_LINEAR_STEP;
+        } else if (is_cubic(window)) {
+            loop.weigh = resample_cubic_gray_neon;
+            loop.centred = false;
         }
         weigh_anywhere(patch, window, &texels, &loop);
     }

@@ -215,9 +215,14 @@ static void weigh_copies(const call_t *call, const patch_t *patch)
 
 static void clamp_points(int32_t *to, const int32_t *from, const patch_t *patch, int32_t size)
 {
-    for (int32_t r = 0; r < patch->height; r++)
-        for (int32_t k = 0; k < patch->width; k++)
-            to[r * PATCH_MAX_WIDTH + k] = clamp_i32(from[r * PATCH_MAX_WIDTH + k], 0, size << GRID_FRACTION_BITS);
+    const int32_t most = size << GRID_FRACTION_BITS;
+    for (int32_t r = 0; r < patch->height; r++, to += PATCH_MAX_WIDTH, from += PATCH_MAX_WIDTH) {
+        int32_t k = 0;
+        for (; k + 4 <= patch->width; k += 4)
+            vst1q_s32(to + k, vminq_s32(vmaxq_s32(vld1q_s32(from + k), vdupq_n_s32(0)), vdupq_n_s32(most)));
+        for (; k < patch->width; k++)
+            to[k] = clamp_i32(from[k], 0, most);
+    }
 }
 
 static __attribute__((noinline)) void weigh_edge(const call_t *call, const patch_t *patch)

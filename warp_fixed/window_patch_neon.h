@@ -84,9 +84,9 @@ static inline window_step_t window_step(const window_source_t *source, const int
     enum { TO_ROW = GRID_FRACTION_BITS - PHASE_BITS - 3, ROWS = (PHASES - 1) * WINDOW_SHORT_TAPS };
     const window_begins_t begins = window_begins(source, x_q18, y_q18, texel_log2);
     window_step_t step;
-    vst1q_u32(step.texel, begins.texel);
-    vst1q_u32(step.row_x, vandq_u32(vshrq_n_u32(begins.x_q18, TO_ROW - 1), vdupq_n_u32(2 * ROWS)));
-    vst1q_u32(step.row_y, vandq_u32(vshrq_n_u32(begins.y_q18, TO_ROW), vdupq_n_u32(ROWS)));
+    store_numbers(step.texel, begins.texel);
+    store_numbers(step.row_x, vandq_u32(vshrq_n_u32(begins.x_q18, TO_ROW - 1), vdupq_n_u32(2 * ROWS)));
+    store_numbers(step.row_y, vandq_u32(vshrq_n_u32(begins.y_q18, TO_ROW), vdupq_n_u32(ROWS)));
     return step;
 }
 

@@ -170,6 +170,21 @@ static void fill_row(window_weights_t *weights, const kernel_t *kernel, int32_t 
         weights->first[at + (size_t)i] = weights->second[at + (size_t)i] = 0;
 }
 
+/* Those of short windows, `count` of them. */
+static void fill_bytes(window_weights_t *weights, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++)
+        weights->first_bytes[i] = (uint8_t)(weights->negative ? -weights->first[i] : weights->first[i]);
+    if (!weights->negative || weights->taps[0] != CUBIC_TAPS)
+        return;
+    for (uint32_t row = 0; row < PHASES; row++)
+        for (uint32_t t = 0; t < CUBIC_TAPS; t++) {
+            const uint32_t at = row * WINDOW_SHORT_TAPS + t;
+            const int16_t weight = weights->first[at];
+            weights->first_bytes[at + CUBIC_TAPS] = (uint8_t)(weight < 0 ? -weight : weight);
+        }
+}
+
 void window_weights_init(window_weights_t *weights, warp_resampler_t resampler, bool of_coefficients)
 {
     const kernel_t *kernel = kernel_of(resampler);
@@ -191,8 +206,8 @@ void window_weights_init(window_weights_t *weights, warp_resampler_t resampler, 
         for (int32_t row = 0; row < PHASES; row++)
             fill_row(weights, kernel, side, row);
     }
-    for (uint32_t i = 0; i < in_bytes && !of_coefficients; i++)
-        weights->first_bytes[i] = (uint8_t)(weights->negative ? -weights->first[i] : weights->first[i]);
+    if (!of_coefficients)
+        fill_bytes(weights, in_bytes);
 }
 
 /* The table entry nearest to a side of at most WINDOW_MAX_SIDE px. */

@@ -21,6 +21,7 @@ enum {
     WINDOW_SIDES = 64 + 6 * 32 + 1, /**< below 1 px in steps of 1/64, then 32 steps to each doubling, up to 64 px */
     WINDOW_MAX_SIDE = 64,           /**< picture pixels; larger footprints are read from halved levels */
     WINDOW_MAX_TAPS = WINDOW_MAX_SIDE + 4,
+    CUBIC_TAPS = 4,
     WINDOW_SHORT_TAPS = 8,    /**< up to here the first pass has 8-bit weights */
     WINDOW_ROW_SLACK = 8,     /**< weights from the begin of a row that vector code may load, if there are fewer */
     WINDOW_SHORT_SIDES = 153, /**< sides with short windows, of the narrowest kernel, half width 1/2 */
@@ -34,7 +35,8 @@ typedef struct {
     const int16_t
         *first; /**< sum FIRST_SUM, FIRST_SUM_POSITIVE, or that << LONG_FIRST_SHIFT; of coefficients as second */
     const int16_t *second;      /**< sum SECOND_SUM, SECOND_SUM_POSITIVE, of coefficients 1 << COEFFICIENT_SUM_LOG2 */
-    const uint8_t *first_bytes; /**< as `first`, negated where `negative`; of short windows of texels alone */
+    const uint8_t *first_bytes; /**< as `first`, negated where `negative`; of short windows of texels alone. Where four
+                                   taps are `negative`, their absolute values follow: outer ones are not positive */
     int32_t taps;               /**< 1 to WINDOW_MAX_TAPS */
     int32_t row;                /**< entries from row to row: taps, or WINDOW_SHORT_TAPS with zeros where these do */
     int32_t lead;               /**< 1/128 px: 1 - h - s/2 */

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// Windows of 4 x 4 texels whose outer weights are negative and whose inner ones are not: Keys' cubic.
+#ifndef WARP_FIXED_RESAMPLE_CUBIC_NEON_H
+#define WARP_FIXED_RESAMPLE_CUBIC_NEON_H
+
+#include "warp_fixed/window_patch_neon.h"
+
+weigh_patch_fn resample_cubic_gray_neon;
+weigh_patch_fn resample_cubic_xrgb_neon;
+
+#endif
