@@ -34,8 +34,12 @@ NEON_INLINE void copy_four(uint8_t *out, const pixels_t *from, uint32x4_t offset
 {
     uint32_t at[4];
     vst1q_u32(at, offset);
+    const size_t size = (size_t)1 << from->pixel_log2;
+    uint32_t pixel[4]; /* all of them are read before any is written: stores go in pairs */
     for (int i = 0; i < 4; i++)
-        memcpy(out + (i << from->pixel_log2), from->data + at[i], (size_t)1 << from->pixel_log2);
+        memcpy(&pixel[i], from->data + at[i], size);
+    for (int i = 0; i < 4; i++)
+        memcpy(out + (i << from->pixel_log2), &pixel[i], size);
 }
 
 NEON_INLINE void copy_eight(uint8_t *out, const pixels_t *from, const int32_t *x_q18, const int32_t *y_q18, bool inside)

@@ -116,30 +116,40 @@ NEON_INLINE uint8x8_t pixels_from_sums(int32x4_t a, int32x4_t b, bool negative)
     return vqshrun_n_s16(high, SUM_SHIFT - 16);
 }
 
-NEON_INLINE int32x4_t weigh(const uint8_t *texels, ptrdiff_t stride, const uint8_t *first, int32_t ny,
-                            const uint8_t *second, int32_t columns, bool negative)
+/* Where the windows' texels and weights are. */
+typedef struct {
+    const uint8_t *data;
+    ptrdiff_t stride;
+    const uint8_t *first, *second;
+} tables_t;
+
+/* Second-pass sums of window i of a step. */
+NEON_INLINE int32x4_t weigh(const tables_t *tables, const window_step_t *step, int i, int32_t ny, int32_t columns,
+                            bool negative)
 {
-    const splats_t splats = load_splats(first, ny);
-    return second_pass(first_pass(texels, stride, &splats, ny, columns, negative), second, columns, negative);
+    const splats_t splats = load_splats(tables->first + stored_offset(&step->row_y[i]), ny);
+    const uint8_t *texels = tables->data + stored_offset(&step->texel[i]);
+    const columns_t v = first_pass(texels, tables->stride, &splats, ny, columns, negative);
+    return second_pass(v, tables->second + stored_offset(&step->row_x[i]), columns, negative);
 }
 
 NEON_INLINE void weigh_patch(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t ny,
                              int32_t columns, bool negative)
 {
     const window_source_t from = *source; /* what is written might alias it */
-    const ptrdiff_t stride = negative ? COPY_STRIDE : from.stride;
-    const uint8_t *first = window->y.first_bytes, *second = (const uint8_t *)window->x.second;
+    const tables_t tables = {from.data, negative ? COPY_STRIDE : from.stride, window->y.first_bytes,
+                             (const uint8_t *)window->x.second};
     const int32_t width = patch->width, height = patch->height;
     for (int32_t r = 0; r < height; r++) {
         const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
         uint8_t *out = patch->out + r * patch->stride;
         for (const int32_t *end = x_q18 + width; x_q18 < end; x_q18 += PATCH_STEP, y_q18 += PATCH_STEP) {
             const window_step_t step = window_step(&from, x_q18, y_q18, 1);
-            int32x4_t sums[PATCH_STEP];
-            for (int i = 0; i < PATCH_STEP; i++)
-                sums[i] = weigh(from.data + step.texel[i], stride, first + step.row_y[i], ny, second + step.row_x[i],
-                                columns, negative);
-            vst1_u8(out, pixels_from_sums(add_texels(sums[0], sums[1]), add_texels(sums[2], sums[3]), negative));
+            const int32x4_t left = add_texels(weigh(&tables, &step, 0, ny, columns, negative),
+                                              weigh(&tables, &step, 1, ny, columns, negative));
+            const int32x4_t right = add_texels(weigh(&tables, &step, 2, ny, columns, negative),
+                                               weigh(&tables, &step, 3, ny, columns, negative));
+            vst1_u8(out, pixels_from_sums(left, right, negative));
             out += 2 * PATCH_STEP;
         }
     }

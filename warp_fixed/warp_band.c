@@ -28,6 +28,7 @@ typedef struct {
 typedef struct {
     int32_t column;                                         /* of the first pixel */
     int32_t begin[PATCH_MAX_HEIGHT], end[PATCH_MAX_HEIGHT]; /* lit columns of each row */
+    bool is_rectangle;                                      /**< all rows have the same extent */
     int32_t x_q18[PATCH_MAX_HEIGHT * PATCH_MAX_WIDTH], y_q18[PATCH_MAX_HEIGHT * PATCH_MAX_WIDTH];
 } tile_t;
 
@@ -107,8 +108,8 @@ static void make_patch(const rows_t *rows, const patch_t *patch, const warp_bloc
     const image_t *picture = &rows->plane->picture;
     const loops_t loops = loops_for(warp->kernels, picture->format);
     if (warp->resampler == WARP_NEAREST) {
-        const image_t filtered = prefilter_pixels(&warp->prefilter, picture, rows->number);
-        loops.nearest(patch, warp->filtered ? &filtered : picture);
+        const image_t from = warp->filtered ? prefilter_pixels(&warp->prefilter, picture, rows->number) : *picture;
+        loops.nearest(patch, &from);
     } else if (warp->resampler == WARP_LS) {
         const ls_surface_t surface = ls_surface(&warp->ls, rows->number);
         loops.ls(patch, &surface);
@@ -139,7 +140,7 @@ static void make_block(const rows_t *rows, const tile_t *tile, int32_t first)
     const int32_t last = first + (1 << rows->columns_log2), channels = (int32_t)rows->plane->panel.format;
     for (int32_t r = 0, next; r < rows->rows; r = next) {
         const extent_t lit = extent_of(tile, r, first, last);
-        for (next = r + 1; next < rows->rows; next++) {
+        for (next = tile->is_rectangle ? rows->rows : r + 1; next < rows->rows; next++) {
             const extent_t below = extent_of(tile, next, first, last);
             if (below.begin != lit.begin || below.end != lit.end)
                 break;
@@ -159,42 +160,68 @@ static void make_block(const rows_t *rows, const tile_t *tile, int32_t first)
     }
 }
 
-static void tile_points(tile_t *tile, const warp_kernels_t *kernels, const grid_row_cursor_t *row, int32_t rows)
+/* The rows of a row of tiles, and their lit columns; rows below the band's last have none. */
+typedef struct {
+    grid_row_cursor_t cursor[PATCH_MAX_HEIGHT];
+    int32_t begin[PATCH_MAX_HEIGHT], end[PATCH_MAX_HEIGHT];
+    extent_t lit; /* of any row */
+} lit_rows_t;
+
+static void find_lit_rows(lit_rows_t *lit, const rows_t *rows)
 {
-    for (int32_t r = 0; r < rows; r++) {
-        const grid_row_t lit = row[r].row;
-        const int32_t begin = lit.begin > tile->column ? lit.begin : tile->column;
-        const int32_t end = lit.end < tile->column + TILE_COLUMNS ? lit.end : tile->column + TILE_COLUMNS;
-        const int32_t at = r * PATCH_MAX_WIDTH + begin - tile->column;
-        tile->begin[r] = begin;
-        tile->end[r] = end;
-        if (begin < end)
-            kernels->grid_points(tile->x_q18 + at, tile->y_q18 + at, &row[r], begin, end);
+    lit->lit = (extent_t){rows->plane->panel.width, 0};
+    for (int32_t r = 0; r < PATCH_MAX_HEIGHT; r++) {
+        lit->begin[r] = lit->end[r] = 0;
+        if (r >= rows->rows)
+            continue;
+        lit->cursor[r] = grid_row_cursor(&rows->plane->grid, rows->row + r);
+        const grid_row_t row = lit->cursor[r].row;
+        if (row.begin >= row.end)
+            continue;
+        lit->begin[r] = row.begin;
+        lit->end[r] = row.end;
+        lit->lit.begin = row.begin < lit->lit.begin ? row.begin : lit->lit.begin;
+        lit->lit.end = row.end > lit->lit.end ? row.end : lit->lit.end;
+    }
+}
+
+static void fill_borders(const rows_t *rows, const lit_rows_t *lit)
+{
+    const warp_plane_t *plane = rows->plane;
+    const image_format_t format = plane->panel.format;
+    for (int32_t r = 0; r < rows->rows; r++) {
+        uint8_t *out = row_of(rows, rows->row + r);
+        fill_pixels(out, plane->border, format, lit->begin[r]);
+        fill_pixels(out + lit->end[r] * (int32_t)format, plane->border, format, plane->panel.width - lit->end[r]);
+    }
+}
+
+static void tile_points(tile_t *tile, const rows_t *rows, const lit_rows_t *lit)
+{
+    const int32_t first = tile->column, last = first + TILE_COLUMNS;
+    int32_t differences = 0;
+    for (int32_t r = 0; r < PATCH_MAX_HEIGHT; r++) {
+        tile->begin[r] = lit->begin[r] > first ? lit->begin[r] : first;
+        tile->end[r] = lit->end[r] < last ? lit->end[r] : last;
+        differences |= (tile->begin[r] - tile->begin[0]) | (tile->end[r] - tile->end[0]);
+    }
+    tile->is_rectangle = differences == 0;
+    for (int32_t r = 0; r < rows->rows; r++) {
+        const int32_t begin = tile->begin[r], at = r * PATCH_MAX_WIDTH + begin - first;
+        if (begin < tile->end[r])
+            rows->warp->kernels->grid_points(tile->x_q18 + at, tile->y_q18 + at, &lit->cursor[r], begin, tile->end[r]);
     }
 }
 
 /* One row of blocks, tile by tile. */
 static void make_rows(const rows_t *rows)
 {
-    const int32_t width = rows->plane->panel.width;
-    const image_format_t format = rows->plane->panel.format;
-    const uint8_t *border = rows->plane->border;
-    int32_t first = width, last = 0;
-    grid_row_cursor_t cursor[PATCH_MAX_HEIGHT];
-    for (int32_t r = 0; r < rows->rows; r++) {
-        cursor[r] = grid_row_cursor(&rows->plane->grid, rows->row + r);
-        const grid_row_t row = cursor[r].row;
-        uint8_t *out = row_of(rows, rows->row + r);
-        fill_pixels(out, border, format, row.begin);
-        fill_pixels(out + row.end * (int32_t)format, border, format, width - row.end);
-        if (row.begin < row.end) {
-            first = row.begin < first ? row.begin : first;
-            last = row.end > last ? row.end : last;
-        }
-    }
+    lit_rows_t lit;
     tile_t tile;
-    for (tile.column = first & -TILE_COLUMNS; tile.column < last; tile.column += TILE_COLUMNS) {
-        tile_points(&tile, rows->warp->kernels, cursor, rows->rows);
+    find_lit_rows(&lit, rows);
+    fill_borders(rows, &lit);
+    for (tile.column = lit.lit.begin & -TILE_COLUMNS; tile.column < lit.lit.end; tile.column += TILE_COLUMNS) {
+        tile_points(&tile, rows, &lit);
         for (int32_t column = 0; column < TILE_COLUMNS; column += 1 << rows->columns_log2)
             make_block(rows, &tile, tile.column + column);
     }
