@@ -17,8 +17,8 @@ enum { PICTURE_MAX_PLANES = 2 };
  * puts it a quarter of a chroma pixel further left is shown with its colours that much to the right.)
  */
 typedef enum {
-    PICTURE_GRAY8,    /**< Y (full range); DRM R8, V4L2 GREY */
     PICTURE_XRGB8888, /**< B, G, R, X; V4L2 XBGR32 */
+    PICTURE_GRAY8,    /**< Y (full range); DRM R8, V4L2 GREY */
     PICTURE_RGB888,   /**< B, G, R; V4L2 BGR24 */
     PICTURE_BGR888,   /**< R, G, B; V4L2 RGB24 */
     PICTURE_YUYV,     /**< Y, U, Y, V of two pixels in a row; even width */

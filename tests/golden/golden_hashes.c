@@ -81,6 +81,45 @@ static void print_frame(const viewpoint_t *viewpoint, const warp_method_t *metho
            report.k_in_q16, report.k_all_q16, report.lit_pixels, made ? "" : " NOT MADE");
 }
 
+/* Luma and chroma: cut from the same bytes, to where the panel's bytes go. */
+static picture_t picture_in(uint8_t *bytes, picture_format_t format, int32_t width, int32_t height)
+{
+    const int32_t stride = format == PICTURE_NV12 ? width : format == PICTURE_XRGB8888 ? 4 * width : 2 * width;
+    return (picture_t){.format = format,
+                       .width = width,
+                       .height = height,
+                       .data = {bytes, bytes + stride * height},
+                       .stride = {stride, width}};
+}
+
+static void print_yuv(const viewpoint_t *viewpoint, const warp_method_t *method, picture_format_t from,
+                      picture_format_t to)
+{
+    static const char *const names[PICTURE_FORMATS] = {"xrgb", "gray", "rgb", "bgr", "yuyv", "uyvy", "nv12"};
+    enum { WIDTH = PICTURE_WIDTH, HEIGHT = PICTURE_HEIGHT - 1, TO_HEIGHT = PANEL_HEIGHT - 1 };
+    const wall_corners_t corners = {
+        .panel_width = PANEL_WIDTH,
+        .panel_height = TO_HEIGHT,
+        .corner_um = {{-2000000, -1125000, 0}, {2000000, -1125000, 0}, {1950000, 1125000, 0}, {-2000000, 1105000, 0}},
+        .corner_known = {true, true, true, true}};
+    const camera_t camera = {WIDTH, HEIGHT, {156250000, 156666667}, {125000000, 70000000}};
+    const uint8_t border[3] = {1, 2, 3};
+    const picture_t picture = picture_in(picture_bytes, from, WIDTH, HEIGHT);
+    const picture_t panel = picture_in(panel_bytes, to, PANEL_WIDTH, TO_HEIGHT);
+    wall_t wall;
+    homography_t homography;
+    memset(panel_bytes, 0, sizeof(panel_bytes));
+    warp_init(&warp, *method, false, border);
+    const bool made = wall_from_corners(&wall, &corners) == WALL_OK &&
+                      homography_from_pose(&homography, &camera, &wall, &viewpoint->pose) &&
+                      warp_plan(&warp, kernels, NULL, &homography, &panel, &picture);
+    for (warp_step_t step = WARP_TAKE; made && step <= WARP_DRAW; step++)
+        if (warp_needs(&warp, step))
+            warp_work(&warp, step, only_worker);
+    printf("%s/%s/%s to %s %016" PRIx64 "%s\n", viewpoint->name, method->name, names[from], names[to],
+           hash_of(panel_bytes, sizeof(panel_bytes)), made ? "" : " NOT MADE");
+}
+
 /* Least-squares fits: interpolated, at the guard, and far from both. */
 static void print_fits(void)
 {
@@ -123,6 +162,11 @@ int main(int argc, char **argv)
             print_frame(&viewpoints[v], &warp_methods[m], IMAGE_GRAY8);
             print_frame(&viewpoints[v], &warp_methods[m], IMAGE_XRGB8888);
         }
+    }
+    for (int m = 0; m < WARP_METHODS; m++) {
+        print_yuv(&viewpoints[1], &warp_methods[m], PICTURE_NV12, PICTURE_NV12);
+        print_yuv(&viewpoints[2], &warp_methods[m], PICTURE_UYVY, PICTURE_YUYV);
+        print_yuv(&viewpoints[3], &warp_methods[m], PICTURE_YUYV, PICTURE_XRGB8888);
     }
     print_weights();
     for (warp_filter_t filter = WARP_FILTER_GAUSS; filter <= WARP_FILTER_BUTTER; filter++) {

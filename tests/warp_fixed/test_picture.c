@@ -59,7 +59,7 @@ static void wrong_pictures_are_refused(void **state)
 static void right_pictures_are_taken(void **state)
 {
     (void)state;
-    for (picture_format_t format = PICTURE_GRAY8; format < PICTURE_FORMATS; format++) {
+    for (picture_format_t format = PICTURE_XRGB8888; format < PICTURE_FORMATS; format++) {
         picture_t picture = {.format = format, .width = 40, .height = 40, .stride = {160, 40}};
         assert_true(picture_is_valid(&picture));
         picture.width = IMAGE_MAX_WIDTH + 2;

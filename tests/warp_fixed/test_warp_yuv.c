@@ -36,7 +36,7 @@ static size_t plane_bytes(const picture_t *p, int plane)
 
 static void lay_out(memory_t *memory, picture_format_t format, int32_t width, int32_t height)
 {
-    static const int32_t bytes[PICTURE_FORMATS] = {1, 4, 3, 3, 2, 2, 1};
+    static const int32_t bytes[PICTURE_FORMATS] = {4, 1, 3, 3, 2, 2, 1};
     memset(memory->bytes, 0xa5, sizeof memory->bytes);
     picture_t *p = &memory->picture;
     *p = (picture_t){.format = format, .width = width, .height = height};

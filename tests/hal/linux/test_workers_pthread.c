@@ -138,7 +138,7 @@ static homography_t homography_number(int n)
 
 static picture_t picture_in(uint8_t *bytes, picture_format_t format, int32_t width, int32_t height)
 {
-    static const int32_t pixel_bytes[PICTURE_FORMATS] = {1, 4, 3, 3, 2, 2, 1};
+    static const int32_t pixel_bytes[PICTURE_FORMATS] = {4, 1, 3, 3, 2, 2, 1};
     const int32_t stride = width * pixel_bytes[format];
     return (picture_t){.format = format,
                        .width = width,
