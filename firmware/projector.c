@@ -54,8 +54,8 @@ static void take_newest_picture(projector_t *p, int64_t now_us)
         hal_camera_release(p->board.camera, &frame);
         return;
     }
-    if (frame.image.width != p->camera.width || frame.image.height != p->camera.height ||
-        frame.image.format != IMAGE_XRGB8888) {
+    if (frame.picture.width != p->camera.width || frame.picture.height != p->camera.height ||
+        frame.picture.format == PICTURE_GRAY8) {
         p->faults.picture_size++;
         hal_camera_release(p->board.camera, &frame);
         return;
@@ -84,9 +84,9 @@ static bool draw_corrected(projector_t *p, const image_t *panel)
 {
     homography_t homography;
     p->report.pose = p->poses.newest;
-    const picture_t to = picture_from_image(panel), from = picture_from_image(&p->picture.image);
+    const picture_t to = picture_from_image(panel);
     if (!homography_from_pose(&homography, &p->camera, &p->wall, &p->report.pose.pose) ||
-        !warp_plan(&p->warp, p->kernels, &p->report.warp, &homography, &to, &from))
+        !warp_plan(&p->warp, p->kernels, &p->report.warp, &homography, &to, &p->picture.picture))
         return false;
     warp_steps_run(&p->warp, p->board.workers);
     return true;

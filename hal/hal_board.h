@@ -33,7 +33,8 @@ typedef struct {
 typedef struct {
     const char *name;    /**< of the board, as in BOARD=NAME */
     const char *can;     /**< bus: an interface (can0), or in the simulator a port of 127.0.0.1 */
-    const char *camera;  /**< video source: a device, or in the simulator a picture or video file, or "pattern" */
+    const char *camera;  /**< video source: a device, or in the simulator a picture or video file, or "pattern";
+                                there a format may be before it, as in nv12:FILE */
     const char *display; /**< where pictures go: a connector, or in the simulator a folder, or "none" */
     hal_workers_settings_t workers; /**< threads that make a picture together */
 } board_table_t;

@@ -6,13 +6,13 @@
 #include <stdint.h>
 
 #include "hal/hal_status.h"
-#include "warp_fixed/image.h"
+#include "warp_fixed/picture.h"
 
 typedef struct hal_camera hal_camera_t;
 
 /** One captured picture, lent by the driver until it is released. */
 typedef struct {
-    image_t image;           /**< read only; XRGB8888, of the size the room file states */
+    picture_t picture;       /**< read only; of the size the room file states, and of any format but GRAY8 */
     int64_t capture_time_us; /**< when its first line was captured, on hal_time's clock */
     uint32_t sequence;       /**< the source's own count; a gap means lost pictures */
 } hal_camera_frame_t;

@@ -9,6 +9,7 @@
 #include "hal/hal_board.h"
 #include "sim/bus/sim_bus.h"
 #include "sim/bus/socketcand_server.h"
+#include "sim/devices/camera_format.h"
 #include "sim/devices/sim_camera.h"
 #include "sim/devices/sim_clock.h"
 #include "sim/devices/sim_display.h"
@@ -91,10 +92,26 @@ static bool open_bus(bench_t *b, const board_table_t *table, const hal_board_nee
     return true;
 }
 
+/* What a name begins with, as nv12:FILE, and the video's name behind it. */
+static picture_format_t camera_format(const char **name)
+{
+    for (picture_format_t format = PICTURE_XRGB8888; format < PICTURE_FORMATS; format++) {
+        const size_t length = strlen(camera_format_names[format]);
+        if (format != PICTURE_GRAY8 && strncmp(*name, camera_format_names[format], length) == 0 &&
+            (*name)[length] == ':') {
+            *name += length + 1;
+            return format;
+        }
+    }
+    return PICTURE_XRGB8888;
+}
+
 static bool open_camera(bench_t *b, const board_table_t *table, const hal_board_needs_t *needs,
                         char error[HAL_BOARD_ERROR_LENGTH])
 {
-    b->video = video_open(table->camera, needs->picture_width, needs->picture_height, error);
+    const char *name = table->camera;
+    const picture_format_t format = camera_format(&name);
+    b->video = video_open(name, needs->picture_width, needs->picture_height, error);
     if (b->video == NULL)
         return false;
     const video_info_t *video = video_info(b->video);
@@ -102,13 +119,14 @@ static bool open_camera(bench_t *b, const board_table_t *table, const hal_board_
         .video = b->video,
         .width = needs->picture_width,
         .height = needs->picture_height,
+        .format = format,
         .rate = {hal_time_now_us(b->devices.clock), video->rate_frames, video->rate_seconds},
     };
     b->devices.camera = sim_camera_create(&settings, error);
     if (b->devices.camera == NULL)
         return false;
-    fprintf(stderr, "camera: %s, %dx%d, %d frames\n", table->camera, needs->picture_width, needs->picture_height,
-            video->frame_count);
+    fprintf(stderr, "camera: %s, %s, %dx%d, %d frames\n", name, camera_format_names[format], needs->picture_width,
+            needs->picture_height, video->frame_count);
     return true;
 }
 

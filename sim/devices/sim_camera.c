@@ -5,6 +5,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
+#include "sim/devices/camera_format.h"
 #include "sim/rng.h"
 
 /* Two held by the firmware, one ready to be taken, one being decoded. */
@@ -26,6 +27,7 @@ struct hal_camera {
     sim_camera_faults_t faults;
     sim_camera_counts_t counts;
     buffer_t buffers[BUFFERS];
+    image_t decoded; /* XRGB8888, on the way to a format that videos are not read in */
     uint8_t *pixels;
     int64_t arrived;   /**< newest picture that has arrived, or was lost */
     int64_t delivered; /**< newest picture that was made ready; what a stuck camera repeats */
@@ -42,12 +44,40 @@ static sim_rate_t rate_of(const sim_camera_settings_t *settings)
     return rate;
 }
 
+/* A picture in `bytes`, of picture_bytes() of the same. */
+static picture_t picture_of(const sim_camera_settings_t *settings, uint8_t *bytes)
+{
+    static const int32_t pixel_bytes[PICTURE_FORMATS] = {
+        [PICTURE_XRGB8888] = 4, [PICTURE_GRAY8] = 1, [PICTURE_RGB888] = 3, [PICTURE_BGR888] = 3,
+        [PICTURE_YUYV] = 2,     [PICTURE_UYVY] = 2,  [PICTURE_NV12] = 1,
+    };
+    const int32_t stride = settings->width * pixel_bytes[settings->format];
+    picture_t picture = {.format = settings->format,
+                         .width = settings->width,
+                         .height = settings->height,
+                         .data = {bytes},
+                         .stride = {stride, settings->width}};
+    if (bytes != NULL && settings->format == PICTURE_NV12)
+        picture.data[1] = bytes + (ptrdiff_t)stride * settings->height;
+    return picture;
+}
+
+static size_t picture_bytes(const picture_t *picture)
+{
+    const size_t whole = (size_t)picture->stride[0] * (size_t)picture->height;
+    return picture->format == PICTURE_NV12 ? whole * 3 / 2 : whole;
+}
+
 static bool settings_are_right(const sim_camera_settings_t *settings, char error[FILE_ERROR_LENGTH])
 {
     if (settings->width < 1 || settings->width > IMAGE_MAX_WIDTH || settings->height < 1 ||
         settings->height > IMAGE_MAX_HEIGHT)
         return file_error(error, "camera", "picture %dx%d, expected at most %dx%d", settings->width, settings->height,
                           IMAGE_MAX_WIDTH, IMAGE_MAX_HEIGHT);
+    const picture_t picture = picture_of(settings, NULL);
+    if (!picture_is_valid(&picture))
+        return file_error(error, "camera", "picture %dx%d, expected an even size for %s", settings->width,
+                          settings->height, camera_format_names[settings->format]);
     const sim_rate_t rate = rate_of(settings);
     if (!sim_rate_is_valid(&rate))
         return file_error(error, "camera", "%d pictures in %d s, expected up to 1000000 a second", rate.frames,
@@ -62,10 +92,10 @@ hal_camera_t *sim_camera_create(const sim_camera_settings_t *settings, char erro
     if (!settings_are_right(settings, error))
         return NULL;
     hal_camera_t *camera = malloc(sizeof *camera);
-    const image_format_t format = settings->format == IMAGE_GRAY8 ? IMAGE_GRAY8 : IMAGE_XRGB8888;
-    const int32_t stride = settings->width * (int32_t)format;
-    const size_t bytes = (size_t)stride * (size_t)settings->height;
-    uint8_t *pixels = malloc(bytes * BUFFERS);
+    const picture_t picture = picture_of(settings, NULL);
+    const int32_t stride = settings->width * (int32_t)IMAGE_XRGB8888;
+    const size_t bytes = picture_bytes(&picture), decoded = (size_t)stride * (size_t)settings->height;
+    uint8_t *pixels = malloc(decoded + bytes * BUFFERS);
     if (camera == NULL || pixels == NULL) {
         free(camera);
         free(pixels);
@@ -74,9 +104,9 @@ hal_camera_t *sim_camera_create(const sim_camera_settings_t *settings, char erro
     }
     *camera = (hal_camera_t){.settings = *settings, .pixels = pixels, .arrived = NO_PICTURE, .delivered = NO_PICTURE};
     camera->settings.rate = rate_of(settings);
+    camera->decoded = (image_t){pixels, settings->width, settings->height, stride, IMAGE_XRGB8888};
     for (size_t i = 0; i < BUFFERS; i++) {
-        camera->buffers[i].frame.image =
-            (image_t){pixels + i * bytes, settings->width, settings->height, stride, format};
+        camera->buffers[i].frame.picture = picture_of(settings, pixels + decoded + i * bytes);
         camera->buffers[i].video_frame = NO_PICTURE;
     }
     return camera;
@@ -117,14 +147,14 @@ static bool hit(const hal_camera_t *camera, uint32_t *next, uint32_t ppm, int64_
 }
 
 /* Noise over a quarter of the height, at a height that depends on the picture. */
-static void spoil(const hal_camera_t *camera, const image_t *image, int64_t picture)
+static void spoil(const hal_camera_t *camera, const picture_t *image, int64_t picture)
 {
     rng_t noise = {hash(camera->settings.seed, picture, NOISE)};
     const int32_t rows = (image->height + 3) / 4;
     const int32_t begin = (int32_t)(rng_next(&noise) % (uint64_t)(image->height - rows + 1));
     for (int32_t y = begin; y < begin + rows; y++) {
-        uint8_t *row = image_row(image, y);
-        for (int32_t x = 0; x < image->width * (int32_t)image->format; x++)
+        uint8_t *row = image->data[0] + (ptrdiff_t)y * image->stride[0];
+        for (int32_t x = 0; x < image->stride[0]; x++)
             row[x] = (uint8_t)(rng_next(&noise) >> 56);
     }
 }
@@ -157,6 +187,18 @@ static void forget_ready(hal_camera_t *camera)
         ready->state = BUFFER_FREE;
 }
 
+/* Decode a frame of the video into the camera's format. */
+static bool decode(hal_camera_t *camera, int64_t index, const picture_t *picture, char error[FILE_ERROR_LENGTH])
+{
+    const bool direct = picture->format == PICTURE_XRGB8888 || picture->format == PICTURE_GRAY8;
+    const image_t image = direct ? picture_plane(picture, 0) : camera->decoded;
+    if (!video_frame(camera->settings.video, index, &image, error))
+        return false;
+    if (!direct)
+        camera_format_convert(picture, &image);
+    return true;
+}
+
 static bool deliver(hal_camera_t *camera, int64_t captured, char error[FILE_ERROR_LENGTH])
 {
     const bool repeats = camera->faults.stuck && camera->delivered != NO_PICTURE;
@@ -165,14 +207,14 @@ static bool deliver(hal_camera_t *camera, int64_t captured, char error[FILE_ERRO
     buffer_t *buffer = choose_buffer(camera, video_frame_index);
     if (buffer->video_frame != video_frame_index) {
         buffer->video_frame = NO_PICTURE;
-        if (!video_frame(camera->settings.video, video_frame_index, &buffer->frame.image, error)) {
+        if (!decode(camera, video_frame_index, &buffer->frame.picture, error)) {
             camera->counts.lost++;
             return false;
         }
         buffer->video_frame = video_frame_index;
     }
     if (hit(camera, &camera->faults.corrupt_next, camera->faults.corrupt_ppm, captured, CORRUPT_CHANCE)) {
-        spoil(camera, &buffer->frame.image, captured);
+        spoil(camera, &buffer->frame.picture, captured);
         buffer->video_frame = NO_PICTURE;
         camera->counts.corrupted++;
     }
@@ -227,7 +269,7 @@ hal_status_t hal_camera_take(hal_camera_t *camera, hal_camera_frame_t *frame)
 void hal_camera_release(hal_camera_t *camera, const hal_camera_frame_t *frame)
 {
     int lent = 0;
-    while (lent < BUFFERS && camera->buffers[lent].frame.image.data != frame->image.data)
+    while (lent < BUFFERS && camera->buffers[lent].frame.picture.data[0] != frame->picture.data[0])
         lent++;
     assert(lent < BUFFERS && camera->buffers[lent].state == BUFFER_HELD);
     camera->buffers[lent].state = BUFFER_FREE;

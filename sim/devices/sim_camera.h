@@ -12,13 +12,13 @@
 
 /** All times are on the board's own clock (hal/hal_time.h). */
 typedef struct {
-    video_t *video;        /**< played; may be shared by cameras of one thread; must outlive the camera */
-    int32_t width, height; /**< as given to video_open() */
-    image_format_t format; /**< 0 stands for IMAGE_XRGB8888 */
-    sim_rate_t rate;       /**< picture n is captured at beat n and shows video frame n; none before beat 0;
-                                frames = 0 stands for the video's own rate */
-    int64_t latency_us;    /**< from capture_time_us to when the picture can be taken; 0 or more */
-    uint32_t seed;         /**< of all chance in the faults: same seed, same faults */
+    video_t *video;          /**< played; may be shared by cameras of one thread; must outlive the camera */
+    int32_t width, height;   /**< as given to video_open() */
+    picture_format_t format; /**< that it delivers */
+    sim_rate_t rate;         /**< picture n is captured at beat n and shows video frame n; none before beat 0;
+                                  frames = 0 stands for the video's own rate */
+    int64_t latency_us;      /**< from capture_time_us to when the picture can be taken; 0 or more */
+    uint32_t seed;           /**< of all chance in the faults: same seed, same faults */
 } sim_camera_settings_t;
 
 /** What goes wrong. Pictures are counted when they would arrive. All 0: nothing. */

@@ -66,13 +66,14 @@ int camera_rig_spoilt_rows(const camera_rig_t *rig, const hal_camera_frame_t *fr
     uint8_t pixels[ROW_BYTES * RIG_HEIGHT];
     const image_t expected = {pixels, RIG_WIDTH, RIG_HEIGHT, ROW_BYTES, IMAGE_XRGB8888};
     assert_true(video_frame(rig->video, n, &expected, error));
-    assert_int_equal(frame->image.format, IMAGE_XRGB8888);
-    assert_int_equal(frame->image.width, RIG_WIDTH);
-    assert_int_equal(frame->image.height, RIG_HEIGHT);
+    const image_t found = picture_plane(&frame->picture, 0);
+    assert_int_equal(frame->picture.format, PICTURE_XRGB8888);
+    assert_int_equal(found.width, RIG_WIDTH);
+    assert_int_equal(found.height, RIG_HEIGHT);
     int spoilt = 0, changes = 0;
     bool before = false;
     for (int32_t y = 0; y < RIG_HEIGHT; y++) {
-        const bool differs = memcmp(image_row(&frame->image, y), image_row(&expected, y), ROW_BYTES) != 0;
+        const bool differs = memcmp(image_row(&found, y), image_row(&expected, y), ROW_BYTES) != 0;
         spoilt += differs;
         changes += differs != before;
         before = differs;

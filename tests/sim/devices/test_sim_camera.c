@@ -70,7 +70,7 @@ static void test_gray_latency_and_the_video_s_own_rate(void **state)
     (void)state;
     const camera_rig_t rig = camera_rig_open("pattern");
     sim_camera_settings_t settings = camera_rig_settings(rig.video);
-    settings.format = IMAGE_GRAY8;
+    settings.format = PICTURE_GRAY8;
     settings.latency_us = 7000;
     settings.rate.frames = 0;
     char error[FILE_ERROR_LENGTH];
@@ -81,9 +81,9 @@ static void test_gray_latency_and_the_video_s_own_rate(void **state)
     assert_int_equal(hal_camera_take(gray.camera, &frame), HAL_OK);
     assert_int_equal(frame.sequence, 3); /* at 30 a second */
     assert_int_equal(frame.capture_time_us, RIG_START_US + 100000);
-    assert_int_equal(frame.image.format, IMAGE_GRAY8);
-    assert_int_equal(frame.image.data[0], 255);
-    assert_int_equal(frame.image.data[frame.image.stride + 5], (19595 * 191 + 38470 * 191 + 7471 * 191 + 32768) >> 16);
+    assert_int_equal(frame.picture.format, PICTURE_GRAY8);
+    assert_int_equal(frame.picture.data[0][0], 255);
+    assert_int_equal(frame.picture.data[0][frame.picture.stride[0] + 5], (19595 * 191 + 38470 * 191 + 7471 * 191 + 32768) >> 16);
     sim_camera_destroy(gray.camera);
     camera_rig_close(&rig);
 }
@@ -119,6 +119,11 @@ static void test_bad_settings(void **state)
     settings.width = IMAGE_MAX_WIDTH + 1;
     assert_null(sim_camera_create(&settings, error));
     assert_string_equal(error, "camera: picture 4097x32, expected at most 4096x2160");
+    settings = camera_rig_settings(rig.video);
+    settings.format = PICTURE_NV12;
+    settings.height = 31;
+    assert_null(sim_camera_create(&settings, error));
+    assert_string_equal(error, "camera: picture 64x31, expected an even size for nv12");
     settings = camera_rig_settings(rig.video);
     settings.rate.seconds = 0;
     assert_null(sim_camera_create(&settings, error));

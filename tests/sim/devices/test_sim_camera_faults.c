@@ -61,7 +61,7 @@ static void test_corrupt_pictures_are_the_same_each_time(void **state)
         assert_int_equal(hal_camera_take(rig.camera, &frame), HAL_OK);
         assert_int_equal(camera_rig_spoilt_rows(&rig, &frame, 0), RIG_HEIGHT / 4);
         seen[run] = malloc(RIG_WIDTH * RIG_HEIGHT * 4);
-        memcpy(seen[run], frame.image.data, RIG_WIDTH * RIG_HEIGHT * 4);
+        memcpy(seen[run], frame.picture.data[0], RIG_WIDTH * RIG_HEIGHT * 4);
         hal_camera_release(rig.camera, &frame);
         camera_rig_advance(&rig, camera_rig_time_us(64)); /* the same frame of the video, whole again */
         assert_int_equal(hal_camera_take(rig.camera, &frame), HAL_OK);

@@ -118,7 +118,7 @@ test_live_run() {
 }
 
 test_firmware() {
-    "$build/wallwarp" "$scratch/classic.yaml" --node 1 --can 0 --camera $picture --display "$scratch/display" \
+    "$build/wallwarp" "$scratch/classic.yaml" --node 1 --can 0 --camera nv12:$picture --display "$scratch/display" \
         --workers 2 2>"$scratch/wallwarp.err" &
     id=$!
     started="$started $id"
