@@ -28,6 +28,7 @@ typedef struct {
 } memory_t;
 
 static memory_t from, to;
+static ls_weights_t weights;
 
 static size_t plane_bytes(const picture_t *p, int plane)
 {
@@ -103,6 +104,12 @@ static const uint8_t *warped_alone(const homography_t *h, int channel, picture_f
             picture_bytes[y * own.picture_width + x] = *component(p, x << in.x, y << in.y, channel);
     const image_t picture = {picture_bytes, own.picture_width, own.picture_height, own.picture_width, IMAGE_GRAY8};
     const image_t panel = {panel_bytes, own.panel_width, own.panel_height, own.panel_width, IMAGE_GRAY8};
+    static ls_weights_t of_channel;
+    for (int32_t x = 0; x < own.picture_width; x++)
+        of_channel.x[x] = weights.x[x << in.x];
+    for (int32_t y = 0; y < own.picture_height; y++)
+        of_channel.y[y] = weights.y[y << in.y];
+    warp_set_ls_weights(&alone, &of_channel);
     const uint8_t bgr[3] = {border[2], border[1], border[0]};
     uint8_t yuv[3];
     color_yuv_from_bgr(yuv, bgr, p->matrix);
@@ -139,8 +146,11 @@ static void planes_are_warped_as_if_alone(void **state)
                                                 {PICTURE_UYVY, PICTURE_YUYV},
                                                 {PICTURE_NV12, PICTURE_YUYV},
                                                 {PICTURE_UYVY, PICTURE_NV12}};
+    for (int32_t k = 0; k < WIDTH; k++)
+        weights.x[k] = weights.y[k] = (uint16_t)(LS_WEIGHT_ONE / 2 + k * 7919 % (LS_WEIGHT_ONE / 2));
     for (int m = 0; m < WARP_METHODS; m++) {
         warp_init(&warp, warp_methods[m], false, border);
+        warp_set_ls_weights(&warp, &weights);
         warp_init(&alone, warp_methods[m], false, border);
         for (int n = 0; n < 4; n++) {
             const picture_format_t *formats = pairs[(m + n) % 5];
