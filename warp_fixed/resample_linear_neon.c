@@ -31,8 +31,8 @@ static inline eight_windows_t eight_windows(const window_source_t *source, const
     const window_begins_t left = window_begins(source, x_q18, y_q18, texel_log2);
     const window_begins_t right = window_begins(source, x_q18 + 4, y_q18 + 4, texel_log2);
     const uint16x8_t phase = eight_phases(left.x_q18, right.x_q18);
-    const uint16x8_t w = vsubq_u16(vshlq_n_u16(phase, 8), vshrq_n_u16(phase, 6));
-    const uint16x8_t rest = vsubq_u16(vdupq_n_u16(SECOND_SUM), w);
+    const uint16x8_t most = vdupq_n_u16(SECOND_SUM);
+    const uint16x8_t rest = vsraq_n_u16(vsubq_u16(most, vshlq_n_u16(phase, 8)), phase, 6), w = vsubq_u16(most, rest);
     return (eight_windows_t){
         .texel = {left.texel, right.texel},
         .lower = eight_phases(left.y_q18, right.y_q18),

@@ -6,7 +6,7 @@
 
 #include "warp_fixed/fixed.h"
 
-enum { EDGE_WIDTH = 16, COPY_ROWS = 72, VECTOR = 16, STRIP_VECTORS = 4 };
+enum { EDGE_WIDTH = 32, COPY_ROWS = 72, VECTOR = 16, STRIP_VECTORS = 4 };
 
 /* Texels that the windows of a patch read along one axis: [begin, end). */
 typedef struct {
