@@ -13,6 +13,9 @@
 #else
 #define SIMDE_ENABLE_NATIVE_ALIASES
 #include <simde/arm/neon.h>
+#ifdef __SSE2__
+#include "warp_fixed/neon_x86.h"
+#endif
 #endif
 
 /**
