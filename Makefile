@@ -183,9 +183,10 @@ bench: setup-bench ## Time each pixel on this machine beside OpenCV and memcpy a
 	$(Q)mkdir -p build/bench
 	$(Q)$(X86)/bench_x86 $(ROUNDS) build/bench
 $(BUILD)/bench_x86: $(call objects,$(wildcard tests/bench/*_x86.c tests/bench/x86_*.c) tests/bench/workload.c \
-    tests/bench/opencv.cpp sim/files/gnuplot.c sim/files/file_io.c) $(BUILD)/libwarp.a
+    tests/bench/opencv.cpp sim/files/gnuplot.c sim/files/file_io.c firmware/warp_steps.c hal/linux/workers_pthread.c) \
+    $(BUILD)/libwarp.a
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lopencv_imgproc -lopencv_core -lstdc++ -lm
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lopencv_imgproc -lopencv_core -lstdc++ -lm -lpthread
 $(BUILD)/obj/%.cpp.o: %.cpp
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  CXX   $<")

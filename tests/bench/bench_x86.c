@@ -16,10 +16,7 @@
 
 enum { MAX_ROUNDS = 1000 };
 
-/* Of the library's frame and of OpenCV's. */
-static const int thread_counts[] = {1};
-
-enum { THREAD_COUNTS = sizeof thread_counts / sizeof *thread_counts };
+enum { THREAD_COUNTS = 2 };
 enum { ROWS = X86_CASES * BENCH_FORMATS * BENCH_POSES * THREAD_COUNTS };
 
 static warp_t warp;
@@ -84,7 +81,8 @@ static bool measure(const x86_job_t *job, x86_row_t *row, int rounds)
     return true;
 }
 
-static bool measure_row(x86_row_t *row, int number, int rounds)
+/* Rows come in order of their threads; `workers` are that many. */
+static bool measure_row(x86_row_t *row, int number, int rounds, hal_workers_t *workers)
 {
     const bench_pose_t *pose = &bench_poses[number % BENCH_POSES];
     const bench_format_t *format = &bench_formats[number / BENCH_POSES % BENCH_FORMATS];
@@ -92,7 +90,7 @@ static bool measure_row(x86_row_t *row, int number, int rounds)
         .work = &x86_cases[number / BENCH_POSES / BENCH_FORMATS % X86_CASES],
         .format = format->name,
         .pose = pose->name,
-        .threads = thread_counts[number / BENCH_POSES / BENCH_FORMATS / X86_CASES],
+        .threads = 1 + number / BENCH_POSES / BENCH_FORMATS / X86_CASES,
     };
     const x86_job_t job = {
         .work = row->work,
@@ -101,6 +99,7 @@ static bool measure_row(x86_row_t *row, int number, int rounds)
         .picture = bench_image(picture_bytes, format->format),
         .panel = bench_image(panel_bytes, format->format),
         .warp = &warp,
+        .workers = workers,
     };
     bench_paint(&job.picture);
     return measure(&job, row, rounds);
@@ -117,10 +116,20 @@ int main(int argc, char **argv)
     static x86_row_t rows[ROWS];
     fprintf(stderr, "bench: OpenCV is %s\n", opencv_version());
     x86_print_header(stdout);
-    for (int r = 0; r < ROWS; r++) {
-        if (!measure_row(&rows[r], r, (int)rounds))
+    for (int32_t threads = 1, r = 0; threads <= THREAD_COUNTS; threads++) {
+        const hal_workers_settings_t settings = {threads, HAL_WORKERS_ANY_CORE, 0};
+        char refused[HAL_WORKERS_ERROR_LENGTH];
+        hal_workers_t *workers;
+        if (hal_workers_open(&workers, &settings, refused) != HAL_OK) {
+            fprintf(stderr, "bench: %s\n", refused);
             return 1;
-        x86_print_row(stdout, &rows[r]);
+        }
+        for (; r < ROWS / THREAD_COUNTS * threads; r++) {
+            if (!measure_row(&rows[r], r, (int)rounds, workers))
+                return 1;
+            x86_print_row(stdout, &rows[r]);
+        }
+        hal_workers_close(workers);
     }
     x86_print_figures(stderr, rows, ROWS);
     char error[FILE_ERROR_LENGTH];

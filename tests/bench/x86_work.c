@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "firmware/warp_steps.h"
+
 enum { BORDER_PX = 2 };
 
 /*
@@ -33,14 +35,30 @@ bool x86_prepare(const x86_job_t *job)
     return true;
 }
 
+typedef struct {
+    const x86_job_t *job;
+    const warp_kernels_t *kernels;
+} filtering_t;
+
+static void filter_part(void *context, int32_t part, int32_t parts)
+{
+    const filtering_t *filtering = context;
+    prefilter_make_pixels(&filtering->job->warp->prefilter, filtering->kernels, &filtering->job->picture, 0,
+                          (worker_t){part, parts});
+}
+
 static image_t do_ours(const x86_job_t *job, const warp_kernels_t *kernels)
 {
-    const image_t refused = {.data = NULL};
     if (job->work->method == NULL) {
-        prefilter_make_pixels(&job->warp->prefilter, kernels, &job->picture, 0, only_worker);
+        filtering_t filtering = {job, kernels};
+        hal_workers_run(job->workers, filter_part, &filtering);
         return prefilter_pixels(&job->warp->prefilter, &job->picture, 0);
     }
-    return warp_frame(job->warp, kernels, NULL, &job->homography, &job->panel, &job->picture) ? job->panel : refused;
+    const picture_t panel = picture_from_image(&job->panel), picture = picture_from_image(&job->picture);
+    if (!warp_plan(job->warp, kernels, NULL, &job->homography, &panel, &picture))
+        return (image_t){.data = NULL};
+    warp_steps_run(job->warp, job->workers);
+    return job->panel;
 }
 
 static image_t do_opencv(const x86_job_t *job)

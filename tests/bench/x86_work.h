@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#include "hal/hal_workers.h"
 #include "tests/bench/opencv.h"
 #include "tests/bench/workload.h"
 #include "warp_fixed/warp.h"
@@ -30,6 +31,7 @@ typedef struct {
     homography_t homography;
     image_t picture, panel;
     warp_t *warp;
+    hal_workers_t *workers; /**< ours; OpenCV has its own threads */
 } x86_job_t;
 
 /** Make job->warp ready for the job's case. @return false when there is no such method or filter. */
