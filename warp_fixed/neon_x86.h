@@ -413,7 +413,7 @@ static inline int32x2_t vshrn_n_s64(int64x2_t a, int n)
 
 static inline int32x2_t vrshrn_n_s64(int64x2_t a, int n)
 {
-    return x86_lower_halves(_mm_srli_epi64(_mm_add_epi64((__m128i)a, _mm_set1_epi64x((int64_t)1 << (n - 1))), n));
+    return x86_lower_halves(_mm_srli_epi64(_mm_add_epi64((__m128i)a, _mm_set1_epi64x((long long)1 << (n - 1))), n));
 }
 
 #ifdef __SSE4_1__
