@@ -12,6 +12,9 @@
 #include <arm_neon.h>
 #else
 #define SIMDE_ENABLE_NATIVE_ALIASES
+#ifdef __clang__
+#define SIMDE_X86_MMX_NO_NATIVE /* what clang makes with MMX leaves the x87 unable to do long doubles */
+#endif
 #include <simde/arm/neon.h>
 #ifdef __SSE2__
 #include "warp_fixed/neon_x86.h"

@@ -80,7 +80,6 @@ static void look_along(int32_t quaternion_q30[4], const double forward[3], rng_t
 void oracle_random_case(oracle_case_t *out, rng_t *rng)
 {
     oracle_wall_t wall;
-    out->corners.marker_count = 0;
     random_wall(&out->corners, rng);
     oracle_wall(&wall, &out->corners);
     const int32_t width = (int32_t)rng_int(rng, 320, 4096), height = (int32_t)rng_int(rng, 240, 2160);
