@@ -45,7 +45,7 @@ seed() {
         ;;
     fuzz_warp)
         # Every method, through lenses of 20, 70 and 4300 pixels: footprints grow with them.
-        for method in $(seq 0 31); do
+        for method in $(seq 0 20); do
             for lens in '\0' '\33\0\0\0\3' '\44\0\0\0\0\1'; do
                 # shellcheck disable=SC2059 # the octal bytes are for printf to read
                 {
@@ -54,6 +54,17 @@ seed() {
                     printf "$lens\\0$lens"
                 } >"$2/$method-${#lens}"
             done
+        done
+        # Every method on a panel of 3 x 3 tiles, gray or in colour: a picture turned by 45 degrees and twice as dense as
+        # the panel, and one 5.5 times as dense. Tiles read across its edges, and more than is copied at once.
+        turned='\47\0\0\0\0\152\251\0\0\0\0\152\1\0\51\0\0\0\0\152\1\47\0\0\0\0\152\256\0\0\0\0\0\72'
+        dense='\53\0\0\0\0\200\4\0\0\0\53\0\0\0\0\200\4'
+        for method in $(seq 0 20); do
+            # shellcheck disable=SC2059
+            {
+                printf "\\$((14 + method % 2))\\167\\$(printf %o "$method")\\351\\351\\26\\351$turned" >"$2/$method-turned"
+                printf "\\$((15 - method % 2))\\167\\$(printf %o "$method")\\351\\351\\26\\351$dense" >"$2/$method-dense"
+            }
         done
         ;;
     *) printf '\0' >"$2/zero" ;;
