@@ -10,6 +10,9 @@
 // and s and r are largest at one of them, since w has its least value there. So the cut costs at most 1.06 * 2^-10 px.
 // Rounding the second difference to Q18 costs 2^-20 * 31.5^2 < 2^-10, the first 2^-19 * 63 < 2^-13, the exact point
 // (33-bit reciprocal of w, x up to 2^13 px) 2^-18. The sum is below 0.0022 px; 1/256 is 0.0039.
+//
+// Exact points are clamped to [-2048, 6144] px, beside any picture; |s| m is at most 1024 px, so what follows from such
+// a point by a quadratic is wrong, but stays more than 900 px beyond the picture as the true points do.
 #include "warp_fixed/grid_row.h"
 
 #include "warp_fixed/fixed.h"

@@ -28,14 +28,16 @@ typedef void grid_points_fn(int32_t *restrict x_q18, int32_t *restrict y_q18, co
 enum {
     PATCH_MAX_WIDTH = GRID_MAX_SPAN,
     PATCH_MAX_HEIGHT = 16,
-    PATCH_SLACK_Q18 = 1 << (GRID_FRACTION_BITS - 6) /**< 1/64 px, and points err by less than 1/256 */
+    PATCH_SLACK_Q18 = 1 << (GRID_FRACTION_BITS - 6), /**< 1/64 px, and points err by less than 1/256 */
+    PATCH_KNOWN_PX = 900
 };
 
 /**
  * A rectangle of panel pixels, all of them lit, and the points where they fall in the picture.
  *
  * Points are a grid's. A homography makes a convex quadrilateral of the rectangle, so no point is further left, right,
- * up or down than those of the four corners, by more than PATCH_SLACK_Q18.
+ * up or down than those of the four corners, by more than PATCH_SLACK_Q18. This holds of points clamped to what is
+ * within PATCH_KNOWN_PX of the picture: of others it is only known that they are as far away as that (grid_row.c).
  */
 typedef struct {
     uint8_t *out;                 /**< the first pixel, of the picture's format */
