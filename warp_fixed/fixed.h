@@ -15,10 +15,10 @@
 //            makes B-spline coefficients, sqrt(3) sum |2 - sqrt(3)|^|n|; low-passes before it lessen it. First pass:
 //            bytes to 64 per grey level, less 64 * 128, so |v| <= 3 * 64 * 128 = 24576 fits int16. Second pass:
 //            |sum| <= 3 * 2^14 * 24576 < 2^31.
-// Coefficients  What filters make: int16 in 1/16 of a grey level, less the middle grey 128; |c| <= 9 * 128 * 16 =
-// 18432,
-//            for a low-pass alone 1.7^2 * 128 * 16 = 5919. Windows weigh them with weights of sum 2^14 on both axes;
-//            absolute ones sum to 1.25 times that at most (cubic), to once for the B-spline: no sum exceeds 2^30.
+// Coefficients  What filters make: int16 in 1/16 of a grey level, less the middle grey 128; |c| <= 9 * 128 * 16, that
+//            is 18432, for a low-pass alone 1.7^2 * 128 * 16 = 5919. Windows weigh them with weights of sum 2^14 on
+//            both axes; absolute ones sum to 1.25 times that at most (cubic), to once for the B-spline: no sum exceeds
+//            2^30.
 // Fits       Least squares take int32: pixels and right-hand sides Q17, coefficients along x Q11, along both axes Q4 or
 //            less (ls_fit.c); rotations Q31 (ls_axis.c); B-splines and their weights Q30 (ls_knots.h).
 #ifndef WARP_FIXED_FIXED_H

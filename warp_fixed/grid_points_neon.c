@@ -132,8 +132,8 @@ void grid_points_neon(int32_t *restrict x_q18, int32_t *restrict y_q18, const gr
     }
     const int span_log2 = row->row.span_log2;
     int32_t block_end = grid_row_block_end(row->row, begin);
-    if (begin < end &&
-        block_end == end) { /* most often so in gentle perspective: then nothing of the row need be kept at hand */
+    /* One block: most often so in gentle perspective, and it needs no registers for what the row has left. */
+    if (begin < end && block_end == end) {
         block_points(x_q18, y_q18, block_quadratics(row, begin, end, span_log2), end - begin);
         return;
     }

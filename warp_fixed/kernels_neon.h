@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loops in NEON (neon.h): the same bytes as the scalar ones, which do what is left over at the end. See kernels.h.
+// The loops in NEON (neon.h): the same bytes as the scalar ones, which do what is too narrow or too far apart for
+// vectors. See kernels.h.
 #ifndef WARP_FIXED_KERNELS_NEON_H
 #define WARP_FIXED_KERNELS_NEON_H
 

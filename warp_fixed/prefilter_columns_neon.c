@@ -46,9 +46,8 @@ static inline void store_columns(int16_t *v, columns_t sums)
 }
 
 /* What is below the upper row's pair at some distance is above the lower row's at the next. */
-static inline __attribute__((always_inline)) void sixteen_columns(int16_t *upper, int16_t *lower,
-                                                                  const uint8_t *const *rows, const int16_t *weights,
-                                                                  int32_t radius, ptrdiff_t x)
+NEON_INLINE void sixteen_columns(int16_t *upper, int16_t *lower, const uint8_t *const *rows, const int16_t *weights,
+                                 int32_t radius, ptrdiff_t x)
 {
     uint8x16_t above = vld1q_u8(rows[radius] + x), below = vld1q_u8(rows[radius + 1] + x);
     columns_t up = column_products(above, weights[0]), low = column_products(below, weights[0]);
@@ -63,9 +62,8 @@ static inline __attribute__((always_inline)) void sixteen_columns(int16_t *upper
     store_columns(lower, low);
 }
 
-static inline __attribute__((always_inline)) void columns_unrolled(int16_t *const v[FILTER_ROWS],
-                                                                   const uint8_t *const *rows, const fir_t *fir,
-                                                                   int32_t radius, ptrdiff_t begin, ptrdiff_t end)
+NEON_INLINE void columns_unrolled(int16_t *const v[FILTER_ROWS], const uint8_t *const *rows, const fir_t *fir,
+                                  int32_t radius, ptrdiff_t begin, ptrdiff_t end)
 {
     int16_t *restrict upper = v[0] + begin, *restrict lower = v[1] + begin;
     const uint8_t *row[2 * SPLINES_RADIUS + FILTER_ROWS];

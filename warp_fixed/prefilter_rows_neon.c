@@ -18,8 +18,7 @@ typedef struct {
     sums_t eight[VECTORS];
 } row_sums_t;
 
-static inline __attribute__((always_inline)) row_sums_t row_sums(const int16_t *v, const int16_t *weights,
-                                                                 int32_t radius, int32_t channels, bool pairs)
+NEON_INLINE row_sums_t row_sums(const int16_t *v, const int16_t *weights, int32_t radius, int32_t channels, bool pairs)
 {
     row_sums_t sums;
     for (int i = 0; i < VECTORS; i++)
@@ -39,8 +38,7 @@ static inline __attribute__((always_inline)) row_sums_t row_sums(const int16_t *
 }
 
 /* The same of four channels, with pairs. Two pixels are a vector: each is loaded once for all that need it. */
-static inline __attribute__((always_inline)) row_sums_t row_sums_xrgb(const int16_t *v, const int16_t *weights,
-                                                                      int32_t radius)
+NEON_INLINE row_sums_t row_sums_xrgb(const int16_t *v, const int16_t *weights, int32_t radius)
 {
     int16x8_t near[4 * UNROLLED_RADIUS]; /* near[UNROLLED_RADIUS + i] begins i pixels from v */
     const int16x8x4_t left = vld1q_s16_x4(v - 12);
@@ -75,7 +73,7 @@ static inline row_out_t next_step(row_out_t out)
 }
 
 /* Both ways the shift is made with the narrowing to 16 bits; bytes take four bits more, and saturation, to 8. */
-static inline __attribute__((always_inline)) void store_row(row_out_t out, row_sums_t sums)
+NEON_INLINE void store_row(row_out_t out, row_sums_t sums)
 {
     _Static_assert(FILTER_SUM_LOG2 + FILTER_FIRST_BITS - COEFFICIENT_BITS == 16, "what is narrowed are coefficients");
     int16x8_t narrow[VECTORS];
@@ -94,8 +92,8 @@ static inline __attribute__((always_inline)) void store_row(row_out_t out, row_s
     }
 }
 
-static inline __attribute__((always_inline)) void row_unrolled(row_out_t out, const int16_t *v, const fir_t *fir,
-                                                               int32_t radius, int32_t channels, ptrdiff_t count)
+NEON_INLINE void row_unrolled(row_out_t out, const int16_t *v, const fir_t *fir, int32_t radius, int32_t channels,
+                              ptrdiff_t count)
 {
     int16_t weights[UNROLLED_RADIUS + 1];
     for (int32_t d = 0; d <= radius; d++)
@@ -112,8 +110,8 @@ static inline __attribute__((always_inline)) void row_unrolled(row_out_t out, co
             store_row(out, row_sums_xrgb(v, weights, radius));
 }
 
-static inline __attribute__((always_inline)) void row_rolled(row_out_t out, const int16_t *v, const fir_t *fir,
-                                                             int32_t channels, bool pairs, ptrdiff_t count)
+NEON_INLINE void row_rolled(row_out_t out, const int16_t *v, const fir_t *fir, int32_t channels, bool pairs,
+                            ptrdiff_t count)
 {
     for (const int16_t *const end = v + count; v != end; v += ROW_STEP, out = next_step(out))
         store_row(out, row_sums(v, fir->weight, fir->radius, channels, pairs));
@@ -139,8 +137,7 @@ static bool these_fit(const int16_t *v, ptrdiff_t count)
 }
 
 /* A multiple of ROW_STEP. */
-static inline __attribute__((always_inline)) void row_steps(row_out_t out, const int16_t *v, const fir_t *fir,
-                                                            int32_t channels, ptrdiff_t count)
+NEON_INLINE void row_steps(row_out_t out, const int16_t *v, const fir_t *fir, int32_t channels, ptrdiff_t count)
 {
     const ptrdiff_t edge = (ptrdiff_t)fir->radius * channels;
     if (!always_fit(fir) && !these_fit(v - edge, count + 2 * edge)) {

@@ -211,14 +211,9 @@ static texels_t texels_of(const coefficients_t *from)
                       texel_bytes};
 }
 
-static bool is_short(const window_t *window)
-{
-    return window->x.taps <= WINDOW_SHORT_TAPS && window->y.taps <= WINDOW_SHORT_TAPS;
-}
-
 void resample_coefficients_xrgb_neon(const patch_t *patch, const window_t *window)
 {
-    if (!is_short(window)) {
+    if (!window_is_short(window)) {
         resample_long_coefficients_xrgb_neon(patch, window);
         return;
     }
@@ -236,7 +231,7 @@ void resample_coefficients_xrgb_neon(const patch_t *patch, const window_t *windo
 
 void resample_coefficients_gray_neon(const patch_t *patch, const window_t *window)
 {
-    if (!is_short(window)) {
+    if (!window_is_short(window)) {
         resample_long_coefficients_gray_neon(patch, window);
         return;
     }

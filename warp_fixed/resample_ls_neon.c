@@ -10,8 +10,6 @@
 #include "warp_fixed/kernels_scalar.h"
 #include "warp_fixed/window_patch_neon.h"
 
-#define INLINE static inline __attribute__((always_inline))
-
 enum { ROWS = LS_EDGE_PHASES + PHASES /* of weights, from either end */ };
 
 /* What the points of a patch share along one axis. */
@@ -39,7 +37,7 @@ typedef struct {
 } ls_places_t;
 
 /* As ls_axis_taps(). */
-INLINE ls_places_t places_of(const ls_placer_t *axis, const int32_t *x_q18)
+NEON_INLINE ls_places_t places_of(const ls_placer_t *axis, const int32_t *x_q18)
 {
     const int32x4_t zero = vdupq_n_s32(0), x = vminq_s32(vmaxq_s32(vld1q_s32(x_q18), zero), axis->size);
     const int32x4_t low = vreinterpretq_s32_s64(vmull_s32(vget_low_s32(x), vget_low_s32(axis->factor)));
@@ -72,7 +70,7 @@ typedef struct {
     ((sums_t){vmlal_lane_s32((sums).low, vget_low_s32(values), weights, lane),                                         \
               vmlal_lane_s32((sums).high, vget_high_s32(values), weights, lane)})
 
-INLINE sums_t weighed(int32x4_t a, int32x4_t b, int32x4_t c, int32x4_t d, int32x4_t weights)
+NEON_INLINE sums_t weighed(int32x4_t a, int32x4_t b, int32x4_t c, int32x4_t d, int32x4_t weights)
 {
     const int32x2_t left = vget_low_s32(weights), right = vget_high_s32(weights);
     sums_t sums = PRODUCTS(a, left, 0);
@@ -82,14 +80,14 @@ INLINE sums_t weighed(int32x4_t a, int32x4_t b, int32x4_t c, int32x4_t d, int32x
 }
 
 /* Four channels of a row's mean. */
-INLINE int32x4_t row_xrgb(const int32_t *at, int32x4_t weights)
+NEON_INLINE int32x4_t row_xrgb(const int32_t *at, int32x4_t weights)
 {
     const sums_t sums = weighed(vld1q_s32(at), vld1q_s32(at + 4), vld1q_s32(at + 8), vld1q_s32(at + 12), weights);
     return vcombine_s32(vrshrn_n_s64(sums.low, LS_WEIGHT_BITS), vrshrn_n_s64(sums.high, LS_WEIGHT_BITS));
 }
 
 /* What each mean is, rounded down. */
-INLINE int32x4_t evaluate_xrgb(const int32_t *at, ptrdiff_t stride, int32x4_t across, int32x4_t down)
+NEON_INLINE int32x4_t evaluate_xrgb(const int32_t *at, ptrdiff_t stride, int32x4_t across, int32x4_t down)
 {
     const sums_t sums = weighed(row_xrgb(at, across), row_xrgb(at + stride, across), row_xrgb(at + 2 * stride, across),
                                 row_xrgb(at + 3 * stride, across), down);
@@ -97,26 +95,26 @@ INLINE int32x4_t evaluate_xrgb(const int32_t *at, ptrdiff_t stride, int32x4_t ac
 }
 
 /* Two sums to be added up. */
-INLINE int64x2_t weighed_gray(int32x4_t values, int32x4_t weights)
+NEON_INLINE int64x2_t weighed_gray(int32x4_t values, int32x4_t weights)
 {
     return vmlal_high_s32(vmull_s32(vget_low_s32(values), vget_low_s32(weights)), values, weights);
 }
 
-INLINE int32x2_t two_rows_gray(const int32_t *at, ptrdiff_t stride, int32x4_t weights)
+NEON_INLINE int32x2_t two_rows_gray(const int32_t *at, ptrdiff_t stride, int32x4_t weights)
 {
     const int64x2_t sums =
         vpaddq_s64(weighed_gray(vld1q_s32(at), weights), weighed_gray(vld1q_s32(at + stride), weights));
     return vrshrn_n_s64(sums, LS_WEIGHT_BITS);
 }
 
-INLINE int64x2_t evaluate_gray(const int32_t *at, ptrdiff_t stride, int32x4_t across, int32x4_t down)
+NEON_INLINE int64x2_t evaluate_gray(const int32_t *at, ptrdiff_t stride, int32x4_t across, int32x4_t down)
 {
     return weighed_gray(vcombine_s32(two_rows_gray(at, stride, across), two_rows_gray(at + 2 * stride, stride, across)),
                         down);
 }
 
 /* Means with fraction_bits, of which there are some, on their way to bytes. */
-INLINE uint16x4_t sixteen_bits(int32x4_t means, int32x4_t shift)
+NEON_INLINE uint16x4_t sixteen_bits(int32x4_t means, int32x4_t shift)
 {
     return vqmovun_s32(vrshlq_s32(means, shift));
 }
@@ -134,7 +132,7 @@ typedef struct {
     uint32_t corner[PATCH_STEP], across[PATCH_STEP], down[PATCH_STEP];
 } ls_step_t;
 
-INLINE ls_step_t step_of(const ls_source_t *from, const int32_t *x_q18, const int32_t *y_q18, int32_t channels)
+NEON_INLINE ls_step_t step_of(const ls_source_t *from, const int32_t *x_q18, const int32_t *y_q18, int32_t channels)
 {
     const ls_places_t x = places_of(&from->x, x_q18), y = places_of(&from->y, y_q18);
     const int32x4_t corner = vmlaq_n_s32(vmulq_n_s32(x.first, channels), y.first, (int32_t)from->stride);
@@ -145,7 +143,7 @@ INLINE ls_step_t step_of(const ls_source_t *from, const int32_t *x_q18, const in
     return step;
 }
 
-INLINE void step_xrgb(uint8_t *out, const ls_source_t *from, const ls_step_t *step)
+NEON_INLINE void step_xrgb(uint8_t *out, const ls_source_t *from, const ls_step_t *step)
 {
     uint16x4_t pixel[PATCH_STEP];
     for (int i = 0; i < PATCH_STEP; i++) {
@@ -158,7 +156,7 @@ INLINE void step_xrgb(uint8_t *out, const ls_source_t *from, const ls_step_t *st
              vcombine_u8(vqmovn_u16(vcombine_u16(pixel[0], pixel[1])), vqmovn_u16(vcombine_u16(pixel[2], pixel[3]))));
 }
 
-INLINE void step_gray(uint8_t *out, const ls_source_t *from, const ls_step_t *step)
+NEON_INLINE void step_gray(uint8_t *out, const ls_source_t *from, const ls_step_t *step)
 {
     int64x2_t sums[PATCH_STEP];
     for (int i = 0; i < PATCH_STEP; i++) {
@@ -173,7 +171,13 @@ INLINE void step_gray(uint8_t *out, const ls_source_t *from, const ls_step_t *st
     memcpy(out, &pixels, PATCH_STEP);
 }
 
-INLINE void evaluate_patch(const patch_t *patch, const ls_surface_t *surface, int32_t channels)
+/* Where step k of a row of at least PATCH_STEP pixels begins: the last one may overlap the one before. */
+static inline int32_t step_begin(int32_t k, int32_t width)
+{
+    return k + PATCH_STEP <= width ? k : width - PATCH_STEP;
+}
+
+NEON_INLINE void evaluate_patch(const patch_t *patch, const ls_surface_t *surface, int32_t channels)
 {
     const ls_source_t from = {
         placer_of(surface->x),

@@ -1,60 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// A window of chroma texels around each point: resample_window_neon.c's way, with U and V side by side.
+// A window of chroma texels around each point: short windows (window_texels_neon.h), with U and V side by side.
 //
 // A row of up to four texels is 8 bytes, one of up to eight is 16. Weights of the second pass are doubled for U and V;
 // its sums of even and of odd texels are added up last.
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "warp_fixed/fixed.h"
 #include "warp_fixed/kernels_neon.h"
 #include "warp_fixed/kernels_scalar.h"
-#include "warp_fixed/window_patch_neon.h"
+#include "warp_fixed/window_texels_neon.h"
 
-enum {
-    MIN_TAPS = 2, /* shorter windows are taken for such: weights beyond a window's are 0 */
-    NARROW = 4,
-    ROUNDING = 1 << (SUM_SHIFT - 1),
-    START_NEGATIVE = 128 * FIRST_SUM * SECOND_SUM + ROUNDING /* what the first pass left out, times the second's sum */
-};
-
-/* First-pass weights of one window, a vector to each row. */
-typedef struct {
-    uint8x16_t row[WINDOW_SHORT_TAPS];
-} splats_t;
-
-NEON_INLINE splats_t load_splats(const uint8_t *first, int32_t ny)
-{
-    splats_t splats;
-    const uint8x16x4_t above = load_4_splats(first);
-    for (int t = 0; t < 4; t++)
-        splats.row[t] = above.val[t];
-    if (ny == 5) {
-        splats.row[4] = vld1q_dup_u8(first + 4);
-    } else if (ny > 5) {
-        const uint8x16x4_t below = load_4_splats(first + 4);
-        for (int t = 0; t < 4; t++)
-            splats.row[4 + t] = below.val[t];
-    }
-    return splats;
-}
+enum { NARROW = 4 };
 
 /* Sums of eight columns (U and V of four texels) each: int16_t, or uint16_t where no weight is negative. */
 typedef struct {
     int16x8_t left, right;
 } columns_t;
-
-NEON_INLINE int16x8_t add_products(int16x8_t sums, uint8x8_t texels, uint8x8_t weight, bool negative)
-{
-    return negative ? vmlal_s8(sums, vreinterpret_s8_u8(texels), vreinterpret_s8_u8(weight))
-                    : vreinterpretq_s16_u16(vmlal_u8(vreinterpretq_u16_s16(sums), texels, weight));
-}
-
-NEON_INLINE int16x8_t products(uint8x8_t texels, uint8x8_t weight, bool negative)
-{
-    return negative ? vmull_s8(vreinterpret_s8_u8(texels), vreinterpret_s8_u8(weight))
-                    : vreinterpretq_s16_u16(vmull_u8(texels, weight));
-}
 
 NEON_INLINE columns_t first_pass(const uint8_t *texels, ptrdiff_t stride, const splats_t *splats, int32_t ny,
                                  int32_t columns, bool negative)
@@ -105,15 +66,6 @@ NEON_INLINE int32x4_t second_pass(columns_t v, const uint8_t *second, int32_t co
 NEON_INLINE int32x4_t add_texels(int32x4_t a, int32x4_t b)
 {
     return vaddq_s32(vcombine_s32(vget_low_s32(a), vget_low_s32(b)), vcombine_s32(vget_high_s32(a), vget_high_s32(b)));
-}
-
-/* The shift of SUM_SHIFT in two, which round down both: to 16 bits, then with saturation to 8. */
-NEON_INLINE uint8x8_t pixels_from_sums(int32x4_t a, int32x4_t b, bool negative)
-{
-    const int32x4_t start = vdupq_n_s32(negative ? START_NEGATIVE : ROUNDING);
-    const int16x8_t high = negative ? vcombine_s16(vsubhn_s32(start, a), vsubhn_s32(start, b))
-                                    : vcombine_s16(vaddhn_s32(start, a), vaddhn_s32(start, b));
-    return vqshrun_n_s16(high, SUM_SHIFT - 16);
 }
 
 /* Where the windows' texels and weights are. */
@@ -179,8 +131,8 @@ NEON_INLINE void rows_4_to_8(const patch_t *patch, const window_t *window, const
 NEON_INLINE void rows_1_to_8(const patch_t *patch, const window_t *window, const window_source_t *source,
                              int32_t columns)
 {
-    if (window->y.taps <= MIN_TAPS)
-        weigh_patch(patch, window, source, MIN_TAPS, columns, false);
+    if (window->y.taps <= WINDOW_MIN_TAPS)
+        weigh_patch(patch, window, source, WINDOW_MIN_TAPS, columns, false);
     else if (window->y.taps == 3)
         weigh_patch(patch, window, source, 3, columns, false);
     else
@@ -229,15 +181,15 @@ void resample_window_chroma_neon(const patch_t *patch, const window_t *window)
 {
     const image_t *picture = &window->picture;
     const int32_t nx = window->x.taps, ny = window->y.taps;
-    if (!offsets_fit(picture->stride, picture->height) || nx > WINDOW_SHORT_TAPS || ny > WINDOW_SHORT_TAPS) {
+    if (!offsets_fit(picture->stride, picture->height) || !window_is_short(window)) {
         resample_window_chroma_scalar(patch, window);
         return;
     }
-    const texels_t texels = {picture->data, picture->width, picture->height, picture->stride, (int32_t)picture->format};
+    const texels_t texels = texels_of(picture);
     const patch_loop_t loop = {
         .weigh = (window->x.negative ? negative_loops : positive_loops)[(nx - 1) / 2],
         .taps_x = nx > NARROW ? WINDOW_SHORT_TAPS : NARROW,
-        .taps_y = ny < MIN_TAPS ? MIN_TAPS : ny,
+        .taps_y = ny < WINDOW_MIN_TAPS ? WINDOW_MIN_TAPS : ny,
         .pixel_bytes = 2,
         .step = PATCH_STEP,
         .centred = window->x.negative,

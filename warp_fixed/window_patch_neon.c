@@ -110,7 +110,7 @@ static window_source_t source_from(const call_t *call, const uint8_t *data, ptrd
                              start_q18(&call->window->y) - y * (1 << GRID_FRACTION_BITS)};
 }
 
-/* Fewer columns than a step has are done by a step beside the panel. */
+/* Fewer columns than a step has: one pixel fills it up, and the step is written beside the panel. */
 static __attribute__((noinline)) void weigh_narrow(const call_t *call, const patch_t *patch,
                                                    const window_source_t *source)
 {

@@ -34,19 +34,17 @@ typedef struct {
     int32_t x_start_q18, y_start_q18;
 } window_source_t;
 
-/** Four windows: bytes from the source's first, and from row 0 of the table of second-pass weights. */
+/** Where four windows and their weights begin; rows of weights have WINDOW_SHORT_TAPS entries. */
 typedef struct {
-    uint32_t texel[PATCH_STEP];
-    uint32_t row_x[PATCH_STEP];
-    uint32_t row_y[PATCH_STEP]; /**< entries (bytes in first_bytes) from row 0 of a table of first-pass weights */
+    uint32_t texel[PATCH_STEP]; /**< bytes from the source's first */
+    uint32_t row_x[PATCH_STEP]; /**< bytes from row 0 of the second pass */
+    uint32_t row_y[PATCH_STEP]; /**< entries from row 0 of the first pass: bytes in first_bytes */
 } window_step_t;
 
 /** Weigh the windows of a patch, all of them inside the source. Its width is a multiple of the loop's step. */
 typedef void weigh_patch_fn(const patch_t *patch, const window_t *window, const window_source_t *source);
 
-/**
- * How a loop reads and writes.
- */
+/** How a loop reads and writes. */
 typedef struct {
     weigh_patch_fn *weigh;
     int32_t taps_x, taps_y; /**< texels that it reads from a window's begin on */
@@ -55,13 +53,20 @@ typedef struct {
     bool centred;           /**< it reads bytes less 128, and a source's stride is COPY_STRIDE */
 } patch_loop_t;
 
-/** Weigh a patch whose windows may leave the picture, at level 0. */
+/** @return Is it at most WINDOW_SHORT_TAPS long along both axes, and so at level 0? */
+static inline bool window_is_short(const window_t *window)
+{
+    return window->x.taps <= WINDOW_SHORT_TAPS && window->y.taps <= WINDOW_SHORT_TAPS;
+}
+
+/** Weigh a patch whose short windows may leave the picture. */
 void weigh_anywhere(const patch_t *patch, const window_t *window, const texels_t *texels, const patch_loop_t *loop);
 
 /** Whether the points of a patch of at least one pixel need no clamping. */
 bool points_inside(const patch_t *patch, int32_t width, int32_t height);
 
-/** Where four windows begin, in whole texels and in 1/128: the integer parts' offset, and the points themselves. */
+/** Where four windows begin: bytes from the source's first, and in texels with a fraction whose upper bits are phases.
+ */
 typedef struct {
     uint32x4_t texel;
     uint32x4_t x_q18, y_q18;
@@ -77,7 +82,7 @@ static inline window_begins_t window_begins(const window_source_t *source, const
     return (window_begins_t){vreinterpretq_u32_s32(texel), vreinterpretq_u32_s32(x), vreinterpretq_u32_s32(y)};
 }
 
-/** The windows of four points; rows of weights have WINDOW_SHORT_TAPS entries. */
+/** The windows of four points. */
 static inline window_step_t window_step(const window_source_t *source, const int32_t *x_q18, const int32_t *y_q18,
                                         int texel_log2)
 {
@@ -94,12 +99,6 @@ static inline window_step_t window_step(const window_source_t *source, const int
 static inline bool offsets_fit(ptrdiff_t stride, int32_t rows)
 {
     return (int64_t)stride * rows <= INT32_MAX;
-}
-
-/** @return Where step k of a row of at least PATCH_STEP pixels begins: the last one may overlap the one before. */
-static inline int32_t step_begin(int32_t k, int32_t width)
-{
-    return k + PATCH_STEP <= width ? k : width - PATCH_STEP;
 }
 
 #endif

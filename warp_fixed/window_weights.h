@@ -32,16 +32,16 @@ enum {
 typedef struct {
     warp_resampler_t resampler;
     bool negative; /**< some weights of the table are: sums overshoot what bytes can make */
-    const int16_t
-        *first; /**< sum FIRST_SUM, FIRST_SUM_POSITIVE, or that << LONG_FIRST_SHIFT; of coefficients as second */
+    /** Sum FIRST_SUM, FIRST_SUM_POSITIVE, or that << LONG_FIRST_SHIFT; of coefficients as second. */
+    const int16_t *first;
     const int16_t *second;      /**< sum SECOND_SUM, SECOND_SUM_POSITIVE, of coefficients 1 << COEFFICIENT_SUM_LOG2 */
     const uint8_t *first_bytes; /**< as `first`, negated where `negative`; of short windows of texels alone. Where four
                                    taps are `negative`, their absolute values follow: outer ones are not positive */
     int32_t taps;               /**< 1 to WINDOW_MAX_TAPS */
     int32_t row;                /**< entries from row to row: taps, or WINDOW_SHORT_TAPS with zeros where these do */
     int32_t lead;               /**< 1/128 px: 1 - h - s/2 */
-    int32_t
-        first_shift; /**< 0, or LONG_FIRST_SHIFT when taps > WINDOW_SHORT_TAPS; of coefficients: COEFFICIENT_SUM_LOG2 */
+    /** 0, or LONG_FIRST_SHIFT when taps > WINDOW_SHORT_TAPS; of coefficients: COEFFICIENT_SUM_LOG2. */
+    int32_t first_shift;
 } window_axis_t;
 
 /** The table of one resampler. */

@@ -1,80 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A window of texels around each point: short windows (at most WINDOW_SHORT_TAPS along both axes) with 8-bit weights.
-//
-// The first pass has 16-bit sums. Without negative weights these are unsigned. With them, texels less 128 (copies:
-// window_patch_neon.h), as signed bytes, give sums less 128 * FIRST_SUM, which fit signed 16 bits (fixed.h). A weight
-// may be 128, which is no signed byte; its negative is, so these sums, and those of the second pass, are negated. What
-// is always inlined has constant bounds there, and no branches.
+// A window of XRGB texels around each point: short windows, with a loop for each number of columns and rows.
 #include <stdbool.h>
-#include <string.h>
+#include <stddef.h>
 
-#include "warp_fixed/fixed.h"
 #include "warp_fixed/kernels_neon.h"
 #include "warp_fixed/kernels_scalar.h"
 #include "warp_fixed/resample_cubic_neon.h"
 #include "warp_fixed/resample_linear_neon.h"
 #include "warp_fixed/resample_long_neon.h"
-#include "warp_fixed/window_patch_neon.h"
-
-enum {
-    MIN_TAPS = 2, /* shorter windows are taken for such: weights beyond a window's are 0 */
-    ROUNDING = 1 << (SUM_SHIFT - 1),
-    START_NEGATIVE = 128 * FIRST_SUM * SECOND_SUM + ROUNDING /* what the first pass left out, times the second's sum */
-};
-
-/* First-pass weights of one window, a vector to each row. */
-typedef struct {
-    uint8x16_t row[WINDOW_SHORT_TAPS];
-} splats_t;
-
-typedef struct {
-    uint8x8_t row[WINDOW_SHORT_TAPS];
-} short_splats_t;
-
-NEON_INLINE splats_t load_splats(const uint8_t *first, int32_t ny)
-{
-    splats_t splats;
-    const uint8x16x4_t above = load_4_splats(first);
-    for (int t = 0; t < 4; t++)
-        splats.row[t] = above.val[t];
-    if (ny == 5) {
-        splats.row[4] = vld1q_dup_u8(first + 4);
-    } else if (ny > 5) {
-        const uint8x16x4_t below = load_4_splats(first + 4);
-        for (int t = 0; t < 4; t++)
-            splats.row[4 + t] = below.val[t];
-    }
-    return splats;
-}
-
-NEON_INLINE short_splats_t load_short_splats(const uint8_t *first, int32_t ny)
-{
-    short_splats_t splats;
-    const uint8x8x4_t above = load_4_short_splats(first);
-    for (int t = 0; t < 4; t++)
-        splats.row[t] = above.val[t];
-    if (ny == 5) {
-        splats.row[4] = vld1_dup_u8(first + 4);
-    } else if (ny > 5) {
-        const uint8x8x4_t below = load_4_short_splats(first + 4);
-        for (int t = 0; t < 4; t++)
-            splats.row[4 + t] = below.val[t];
-    }
-    return splats;
-}
-
-/* texels * weight: int16_t, or uint16_t where no weight is negative. */
-NEON_INLINE int16x8_t products(uint8x8_t texels, uint8x8_t weight, bool negative)
-{
-    return negative ? vmull_s8(vreinterpret_s8_u8(texels), vreinterpret_s8_u8(weight))
-                    : vreinterpretq_s16_u16(vmull_u8(texels, weight));
-}
-
-NEON_INLINE int16x8_t add_products(int16x8_t sums, uint8x8_t texels, uint8x8_t weight, bool negative)
-{
-    return negative ? vmlal_s8(sums, vreinterpret_s8_u8(texels), vreinterpret_s8_u8(weight))
-                    : vreinterpretq_s16_u16(vmlal_u8(vreinterpretq_u16_s16(sums), texels, weight));
-}
+#include "warp_fixed/window_texels_neon.h"
 
 /* sums + weights[lane] * values of one pixel's four channels. */
 #define ADD_PIXEL(sums, values, weights, lane, negative)                                                               \
@@ -147,15 +81,6 @@ NEON_INLINE int32x4_t weigh_xrgb(const uint8_t *texels, ptrdiff_t stride, const 
     return sums;
 }
 
-/* Eight values; the shift of SUM_SHIFT in two, which round down both: to 16 bits, then with saturation to 8. */
-NEON_INLINE uint8x8_t pixels_from_sums(int32x4_t a, int32x4_t b, bool negative)
-{
-    const int32x4_t start = vdupq_n_s32(negative ? START_NEGATIVE : ROUNDING);
-    const int16x8_t high = negative ? vcombine_s16(vsubhn_s32(start, a), vsubhn_s32(start, b))
-                                    : vcombine_s16(vaddhn_s32(start, a), vaddhn_s32(start, b));
-    return vqshrun_n_s16(high, SUM_SHIFT - 16);
-}
-
 NEON_INLINE void patch_xrgb(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t nx,
                             int32_t ny, bool negative)
 {
@@ -214,7 +139,7 @@ NEON_INLINE void rows_1_to_8_xrgb(const patch_t *patch, const window_t *window, 
     switch (window->y.taps) {
     case 1:
     case 2:
-        patch_xrgb(patch, window, source, nx, MIN_TAPS, false);
+        patch_xrgb(patch, window, source, nx, WINDOW_MIN_TAPS, false);
         break;
     case 3:
         patch_xrgb(patch, window, source, nx, 3, false);
@@ -310,109 +235,11 @@ static weigh_patch_fn *const negative_xrgb[WINDOW_SHORT_TAPS + 1] = {
     negative_eight_xrgb,
 };
 
-/* Second-pass sums of one pixel, to be added up; negated where weights are negative. Rows of eight texels are read. */
-NEON_INLINE int32x4_t weigh_gray(const uint8_t *texels, ptrdiff_t stride, const uint8_t *first, int32_t ny,
-                                 const uint8_t *second, bool negative)
-{
-    const short_splats_t splats = load_short_splats(first, ny);
-    int16x8_t v = products(vld1_u8(texels), splats.row[0], negative);
-    for (int t = 1; t < ny; t++)
-        v = add_products(v, vld1_u8(texels + t * stride), splats.row[t], negative);
-    const int16x8_t weights = vreinterpretq_s16_u8(vld1q_u8(second));
-    if (negative)
-        return vmlal_high_s16(vmull_s16(vget_low_s16(v), vget_low_s16(weights)), v, weights);
-    const uint16x8_t u = vreinterpretq_u16_s16(v), w = vreinterpretq_u16_s16(weights);
-    return vreinterpretq_s32_u32(vmlal_high_u16(vmull_u16(vget_low_u16(u), vget_low_u16(w)), u, w));
-}
-
-NEON_INLINE void patch_gray(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t ny,
-                            bool negative)
-{
-    const window_source_t from = *source; /* what is written might alias these */
-    const ptrdiff_t stride = negative ? COPY_STRIDE : from.stride;
-    const uint8_t *first = window->y.first_bytes;
-    const uint8_t *second = (const uint8_t *)window->x.second;
-    const int32_t width = patch->width, height = patch->height;
-    for (int32_t r = 0; r < height; r++) {
-        const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
-        uint8_t *out = patch->out + r * patch->stride;
-        for (const int32_t *end = x_q18 + width; x_q18 < end; x_q18 += PATCH_STEP, y_q18 += PATCH_STEP) {
-            const window_step_t step = window_step(&from, x_q18, y_q18, 0);
-            const int32x4_t a =
-                weigh_gray(from.data + stored_offset(&step.texel[0]), stride, first + stored_offset(&step.row_y[0]), ny,
-                           second + stored_offset(&step.row_x[0]), negative);
-            const int32x4_t b =
-                weigh_gray(from.data + stored_offset(&step.texel[1]), stride, first + stored_offset(&step.row_y[1]), ny,
-                           second + stored_offset(&step.row_x[1]), negative);
-            const int32x4_t c =
-                weigh_gray(from.data + stored_offset(&step.texel[2]), stride, first + stored_offset(&step.row_y[2]), ny,
-                           second + stored_offset(&step.row_x[2]), negative);
-            const int32x4_t d =
-                weigh_gray(from.data + stored_offset(&step.texel[3]), stride, first + stored_offset(&step.row_y[3]), ny,
-                           second + stored_offset(&step.row_x[3]), negative);
-            const int32x4_t four = vpaddq_s32(vpaddq_s32(a, b), vpaddq_s32(c, d));
-            const uint8x8_t pixels = pixels_from_sums(four, four, negative);
-            memcpy(out, &pixels, PATCH_STEP);
-            out += PATCH_STEP;
-        }
-    }
-}
-
-NEON_INLINE void rows_gray(const patch_t *patch, const window_t *window, const window_source_t *source, bool negative)
-{
-    switch (window->y.taps) {
-    case 4:
-        patch_gray(patch, window, source, 4, negative);
-        break;
-    case 5:
-        patch_gray(patch, window, source, 5, negative);
-        break;
-    case 6:
-        patch_gray(patch, window, source, 6, negative);
-        break;
-    case 7:
-        patch_gray(patch, window, source, 7, negative);
-        break;
-    default:
-        patch_gray(patch, window, source, WINDOW_SHORT_TAPS, negative);
-    }
-}
-
-static void positive_gray(const patch_t *patch, const window_t *window, const window_source_t *source)
-{
-    if (window->y.taps <= MIN_TAPS)
-        patch_gray(patch, window, source, MIN_TAPS, false);
-    else if (window->y.taps == 3)
-        patch_gray(patch, window, source, 3, false);
-    else
-        rows_gray(patch, window, source, false);
-}
-
-static void negative_gray(const patch_t *patch, const window_t *window, const window_source_t *source)
-{
-    rows_gray(patch, window, source, true);
-}
-
-static bool is_short(const window_t *window)
-{
-    return window->x.taps <= WINDOW_SHORT_TAPS && window->y.taps <= WINDOW_SHORT_TAPS;
-}
-
-static bool is_cubic(const window_t *window)
-{
-    return window->x.negative && window->x.taps == CUBIC_TAPS && window->y.taps == CUBIC_TAPS;
-}
-
-static texels_t texels_of(const image_t *picture)
-{
-    return (texels_t){picture->data, picture->width, picture->height, picture->stride, (int32_t)picture->format};
-}
-
 void resample_window_xrgb_neon(const patch_t *patch, const window_t *window)
 {
     if (!offsets_fit(window->picture.stride, window->picture.height)) {
         resample_window_xrgb_scalar(patch, window);
-    } else if (!is_short(window)) {
+    } else if (!window_is_short(window)) {
         resample_long_xrgb_neon(patch, window);
     } else {
         const bool negative = window->x.negative;
@@ -421,7 +248,7 @@ void resample_window_xrgb_neon(const patch_t *patch, const window_t *window)
         patch_loop_t loop = {
             .weigh = (negative ? negative_xrgb : positive_xrgb)[nx],
             .taps_x = (nx + 1) & -2,
-            .taps_y = ny < MIN_TAPS ? MIN_TAPS : ny,
+            .taps_y = ny < WINDOW_MIN_TAPS ? WINDOW_MIN_TAPS : ny,
             .pixel_bytes = 4,
             .step = PATCH_STEP,
             .centred = negative,
@@ -429,37 +256,8 @@ void resample_window_xrgb_neon(const patch_t *patch, const window_t *window)
         if (window->x.resampler == WARP_LINEAR) {
             loop.weigh = resample_linear_xrgb_neon;
             loop.step = RESAMPLE_LINEAR_STEP;
-        } else if (is_cubic(window)) {
+        } else if (window_is_cubic(window)) {
             loop.weigh = resample_cubic_xrgb_neon;
-            loop.centred = false;
-        }
-        weigh_anywhere(patch, window, &texels, &loop);
-    }
-}
-
-void resample_window_gray_neon(const patch_t *patch, const window_t *window)
-{
-    if (!offsets_fit(window->picture.stride, window->picture.height)) {
-        resample_window_gray_scalar(patch, window);
-    } else if (!is_short(window)) {
-        resample_long_gray_neon(patch, window);
-    } else {
-        const bool negative = window->x.negative;
-        const texels_t texels = texels_of(&window->picture);
-        patch_loop_t loop = {
-            .weigh = negative ? negative_gray : positive_gray,
-            .taps_x = WINDOW_SHORT_TAPS,
-            .taps_y = window->y.taps < MIN_TAPS ? MIN_TAPS : window->y.taps,
-            .pixel_bytes = 1,
-            .step = PATCH_STEP,
-            .centred = negative,
-        };
-        if (window->x.resampler == WARP_LINEAR) {
-            loop.weigh = resample_linear_gray_neon;
-            loop.taps_x = MIN_TAPS;
-            loop.step = RESAMPLE_LINEAR_STEP;
-        } else if (is_cubic(window)) {
-            loop.weigh = resample_cubic_gray_neon;
             loop.centred = false;
         }
         weigh_anywhere(patch, window, &texels, &loop);
