@@ -46,7 +46,7 @@ typedef struct {
     stage_step_t times; /**< its stages, and the wait before it */
 } projector_report_t;
 
-/** About 162 MB, one static instance on a board; the simulator makes one for each of its boards before it starts. */
+/** About 192 MB, one static instance on a board; the simulator makes one for each of its boards before it starts. */
 struct projector {
     hal_board_t board;
     int32_t node;

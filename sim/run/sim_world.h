@@ -29,7 +29,7 @@ typedef struct {
 } sim_world_config_t;
 
 /**
- * Make bus, devices and projectors. Uses the heap; about 162 MB of address space per board, mostly untouched.
+ * Make bus, devices and projectors. Uses the heap; about 192 MB of address space per board, mostly untouched.
  *
  * @return NULL with the reason in error.
  */
