@@ -67,6 +67,41 @@ void resample_long_coefficients_xrgb_neon(const patch_t *patch, const window_t *
                  patch->y_q18 + r * PATCH_MAX_WIDTH, patch->width);
 }
 
+static void row_chroma(uint8_t *out, const window_t *window, const int32_t *x_q18, const int32_t *y_q18, int32_t count)
+{
+    const ptrdiff_t stride = (ptrdiff_t)window->coefficients.width * 2;
+    const int32_t nx = window->x.taps, ny = window->y.taps;
+    const placer_t placer = placer_of(window, (nx + 3) & -4, stride);
+    int16_t v[2 * WINDOW_MAX_TAPS + 2 * LANES];
+    places_t places;
+    int32_t k = 0;
+    for (; k + PLACE_STEP <= count; k += PLACE_STEP) {
+        if (!find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
+            const patch_t few = {out + (ptrdiff_t)k * 2, 0, x_q18 + k, y_q18 + k, PLACE_STEP, 1};
+            resample_coefficients_chroma_scalar(&few, window);
+            continue;
+        }
+        for (int i = 0; i < PLACE_STEP; i++) {
+            const int16_t *corner = window->coefficients.data + places.texel[i];
+            first_pass(v, corner, stride, window->y.first + places.row_y[i] * window->y.row, ny, 2 * nx);
+            vst1q_s16(v + 2 * nx, vdupq_n_s16(0));
+            const int32x4_t sums = window_sums_chroma(v, window->x.second + places.row_x[i] * window->x.row, nx);
+            const int32x2_t both = vadd_s32(vget_low_s32(sums), vget_high_s32(sums));
+            const uint8x8_t pixel = pixels_from_sums(vcombine_s32(both, both));
+            memcpy(out + (ptrdiff_t)(k + i) * 2, &pixel, 2);
+        }
+    }
+    const patch_t few = {out + (ptrdiff_t)k * 2, 0, x_q18 + k, y_q18 + k, count - k, 1};
+    resample_coefficients_chroma_scalar(&few, window);
+}
+
+void resample_long_coefficients_chroma_neon(const patch_t *patch, const window_t *window)
+{
+    for (int32_t r = 0; r < patch->height; r++)
+        row_chroma(patch->out + r * patch->stride, window, patch->x_q18 + r * PATCH_MAX_WIDTH,
+                   patch->y_q18 + r * PATCH_MAX_WIDTH, patch->width);
+}
+
 static void row_gray(uint8_t *out, const window_t *window, const int32_t *x_q18, const int32_t *y_q18, int32_t count)
 {
     const ptrdiff_t stride = window->coefficients.width;

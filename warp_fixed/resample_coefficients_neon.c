@@ -10,6 +10,7 @@
 #include "warp_fixed/kernels_scalar.h"
 #include "warp_fixed/resample_long_neon.h"
 #include "warp_fixed/window_patch_neon.h"
+#include "warp_fixed/window_sums_neon.h"
 
 enum { LANES = 8, SHIFT = COEFFICIENT_SUM_LOG2 + COEFFICIENT_BITS };
 
@@ -90,6 +91,19 @@ NEON_INLINE int32x4_t weigh_gray(const uint8_t *const *rows, size_t at, int16x8_
     return nx > 4 ? vmlal_high_s16(sums, v, second) : sums;
 }
 
+/* Second-pass sums of U, V of even texels, then of odd ones. A vector of columns has four texels. */
+NEON_INLINE int32x4_t weigh_chroma(const uint8_t *const *rows, size_t at, int16x8_t first, int32_t ny, int16x8_t second,
+                                   int32_t nx)
+{
+    const int16x8_t left = vzip1q_s16(second, second), v = weigh_columns(rows, at, first, ny);
+    int32x4_t sums = vmlal_high_s16(vmull_s16(vget_low_s16(v), vget_low_s16(left)), v, left);
+    if (nx > 4) {
+        const int16x8_t right = vzip2q_s16(second, second), u = weigh_columns(rows, at + 16, first, ny);
+        sums = vmlal_high_s16(vmlal_s16(sums, vget_low_s16(u), vget_low_s16(right)), u, right);
+    }
+    return sums;
+}
+
 /* Row 0 of the weights of both passes. */
 typedef struct {
     const int16_t *first;
@@ -102,8 +116,10 @@ NEON_INLINE int32x4_t weigh_pixel(const uint8_t *const *rows, const patch_tables
 {
     const int16x8_t first = vld1q_s16(tables->first + stored_offset(&step->row_y[i]));
     const int16x8_t second = vreinterpretq_s16_u8(vld1q_u8(tables->second + stored_offset(&step->row_x[i])));
-    return channels == 1 ? weigh_gray(rows, stored_offset(&step->texel[i]), first, ny, second, nx)
-                         : weigh_xrgb(rows, stored_offset(&step->texel[i]), first, ny, second, nx);
+    const size_t at = stored_offset(&step->texel[i]);
+    return channels == 1   ? weigh_gray(rows, at, first, ny, second, nx)
+           : channels == 2 ? weigh_chroma(rows, at, first, ny, second, nx)
+                           : weigh_xrgb(rows, at, first, ny, second, nx);
 }
 
 /* As pixel_from_centred(): the middle grey goes in before the shift, which is made in two (the second saturates). */
@@ -126,7 +142,7 @@ NEON_INLINE void weigh_patch(const patch_t *patch, const window_t *window, const
         const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
         uint8_t *out = patch->out + r * patch->stride;
         for (const int32_t *end = x_q18 + width; x_q18 < end; x_q18 += PATCH_STEP, y_q18 += PATCH_STEP) {
-            const window_step_t step = window_step(&from, x_q18, y_q18, channels == 1 ? 1 : 3);
+            const window_step_t step = window_step(&from, x_q18, y_q18, channels == 1 ? 1 : channels == 2 ? 2 : 3);
             const int32x4_t a = weigh_pixel(rows, &tables, &step, 0, nx, ny, channels);
             const int32x4_t b = weigh_pixel(rows, &tables, &step, 1, nx, ny, channels);
             const int32x4_t c = weigh_pixel(rows, &tables, &step, 2, nx, ny, channels);
@@ -135,6 +151,8 @@ NEON_INLINE void weigh_patch(const patch_t *patch, const window_t *window, const
                 const int32x4_t four = vpaddq_s32(vpaddq_s32(a, b), vpaddq_s32(c, d));
                 const uint8x8_t pixels = pixels_from_sums(four, four);
                 memcpy(out, &pixels, PATCH_STEP);
+            } else if (channels == 2) {
+                vst1_u8(out, pixels_from_sums(chroma_from_sums(a, b), chroma_from_sums(c, d)));
             } else {
                 vst1q_u8(out, vcombine_u8(pixels_from_sums(a, b), pixels_from_sums(c, d)));
             }
@@ -204,6 +222,16 @@ static void eight_gray(const patch_t *patch, const window_t *window, const windo
     weigh_rows(patch, window, source, WINDOW_SHORT_TAPS, 1);
 }
 
+static void four_chroma(const patch_t *patch, const window_t *window, const window_source_t *source)
+{
+    weigh_rows(patch, window, source, 4, 2);
+}
+
+static void eight_chroma(const patch_t *patch, const window_t *window, const window_source_t *source)
+{
+    weigh_rows(patch, window, source, WINDOW_SHORT_TAPS, 2);
+}
+
 static texels_t texels_of(const coefficients_t *from)
 {
     const int32_t texel_bytes = from->channels * (int32_t)sizeof *from->data;
@@ -224,6 +252,24 @@ void resample_coefficients_xrgb_neon(const patch_t *patch, const window_t *windo
         .taps_x = (taps_of_loop(nx) + 1) & -2,
         .taps_y = taps_of_loop(window->y.taps),
         .pixel_bytes = 4,
+        .step = PATCH_STEP,
+    };
+    weigh_anywhere(patch, window, &texels, &loop);
+}
+
+void resample_coefficients_chroma_neon(const patch_t *patch, const window_t *window)
+{
+    if (!is_short(window)) {
+        resample_long_coefficients_chroma_neon(patch, window);
+        return;
+    }
+    const texels_t texels = texels_of(&window->coefficients);
+    const bool narrow = window->x.taps <= 4;
+    const patch_loop_t loop = {
+        .weigh = narrow ? four_chroma : eight_chroma,
+        .taps_x = narrow ? 4 : WINDOW_SHORT_TAPS,
+        .taps_y = taps_of_loop(window->y.taps),
+        .pixel_bytes = 2,
         .step = PATCH_STEP,
     };
     weigh_anywhere(patch, window, &texels, &loop);

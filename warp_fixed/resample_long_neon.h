@@ -6,8 +6,10 @@
 #include "warp_fixed/kernels.h"
 
 resample_window_fn resample_long_gray_neon;
+resample_window_fn resample_long_chroma_neon;
 resample_window_fn resample_long_xrgb_neon;
 resample_window_fn resample_long_coefficients_gray_neon;
+resample_window_fn resample_long_coefficients_chroma_neon;
 resample_window_fn resample_long_coefficients_xrgb_neon;
 
 #endif

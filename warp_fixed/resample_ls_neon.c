@@ -94,6 +94,28 @@ NEON_INLINE int32x4_t evaluate_xrgb(const int32_t *at, ptrdiff_t stride, int32x4
     return vcombine_s32(vshrn_n_s64(sums.low, LS_WEIGHT_BITS), vshrn_n_s64(sums.high, LS_WEIGHT_BITS));
 }
 
+/* U and V of four texels, weighed. */
+NEON_INLINE int32x2_t row_chroma(const int32_t *at, int32x4_t weights)
+{
+    const int32x2_t left = vget_low_s32(weights), right = vget_high_s32(weights);
+    int64x2_t sums = vmull_lane_s32(vld1_s32(at), left, 0);
+    sums = vmlal_lane_s32(sums, vld1_s32(at + 2), left, 1);
+    sums = vmlal_lane_s32(sums, vld1_s32(at + 4), right, 0);
+    sums = vmlal_lane_s32(sums, vld1_s32(at + 6), right, 1);
+    return vrshrn_n_s64(sums, LS_WEIGHT_BITS);
+}
+
+/* What both means are, rounded down. */
+NEON_INLINE int32x2_t evaluate_chroma(const int32_t *at, ptrdiff_t stride, int32x4_t across, int32x4_t down)
+{
+    const int32x2_t upper = vget_low_s32(down), lower = vget_high_s32(down);
+    int64x2_t sums = vmull_lane_s32(row_chroma(at, across), upper, 0);
+    sums = vmlal_lane_s32(sums, row_chroma(at + stride, across), upper, 1);
+    sums = vmlal_lane_s32(sums, row_chroma(at + 2 * stride, across), lower, 0);
+    sums = vmlal_lane_s32(sums, row_chroma(at + 3 * stride, across), lower, 1);
+    return vshrn_n_s64(sums, LS_WEIGHT_BITS);
+}
+
 /* Two sums to be added up. */
 NEON_INLINE int64x2_t weighed_gray(int32x4_t values, int32x4_t weights)
 {
@@ -156,6 +178,19 @@ NEON_INLINE void step_xrgb(uint8_t *out, const ls_source_t *from, const ls_step_
              vcombine_u8(vqmovn_u16(vcombine_u16(pixel[0], pixel[1])), vqmovn_u16(vcombine_u16(pixel[2], pixel[3]))));
 }
 
+NEON_INLINE void step_chroma(uint8_t *out, const ls_source_t *from, const ls_step_t *step)
+{
+    int32x2_t means[PATCH_STEP];
+    for (int i = 0; i < PATCH_STEP; i++) {
+        const int32x4_t across = vld1q_s32(from->x.weight + step->across[i]);
+        const int32x4_t down = vld1q_s32(from->y.weight + step->down[i]);
+        means[i] = evaluate_chroma(from->coefficients + step->corner[i], from->stride, across, down);
+    }
+    const uint16x4_t left = sixteen_bits(vcombine_s32(means[0], means[1]), from->shift);
+    const uint16x4_t right = sixteen_bits(vcombine_s32(means[2], means[3]), from->shift);
+    vst1_u8(out, vqmovn_u16(vcombine_u16(left, right)));
+}
+
 NEON_INLINE void step_gray(uint8_t *out, const ls_source_t *from, const ls_step_t *step)
 {
     int64x2_t sums[PATCH_STEP];
@@ -194,6 +229,8 @@ NEON_INLINE void evaluate_patch(const patch_t *patch, const ls_surface_t *surfac
             const ls_step_t step = step_of(&from, x_q18 + at, y_q18 + at, channels);
             if (channels == 4)
                 step_xrgb(out + (ptrdiff_t)at * 4, &from, &step);
+            else if (channels == 2)
+                step_chroma(out + (ptrdiff_t)at * 2, &from, &step);
             else
                 step_gray(out + at, &from, &step);
         }
@@ -206,6 +243,14 @@ void resample_ls_xrgb_neon(const patch_t *patch, const ls_surface_t *surface)
         resample_ls_xrgb_scalar(patch, surface);
     else
         evaluate_patch(patch, surface, 4);
+}
+
+void resample_ls_chroma_neon(const patch_t *patch, const ls_surface_t *surface)
+{
+    if (patch->width < PATCH_STEP || surface->fraction_bits == 0)
+        resample_ls_chroma_scalar(patch, surface);
+    else
+        evaluate_patch(patch, surface, 2);
 }
 
 void resample_ls_gray_neon(const patch_t *patch, const ls_surface_t *surface)

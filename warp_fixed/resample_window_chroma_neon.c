@@ -8,6 +8,8 @@
 
 #include "warp_fixed/kernels_neon.h"
 #include "warp_fixed/kernels_scalar.h"
+#include "warp_fixed/resample_long_neon.h"
+#include "warp_fixed/window_sums_neon.h"
 #include "warp_fixed/window_texels_neon.h"
 
 enum { NARROW = 4 };
@@ -62,12 +64,6 @@ NEON_INLINE int32x4_t second_pass(columns_t v, const uint8_t *second, int32_t co
     return add_multiplied(sums, v.right, vzip2q_s16(weights, weights), columns - NARROW, negative);
 }
 
-/* U, V of two pixels. */
-NEON_INLINE int32x4_t add_texels(int32x4_t a, int32x4_t b)
-{
-    return vaddq_s32(vcombine_s32(vget_low_s32(a), vget_low_s32(b)), vcombine_s32(vget_high_s32(a), vget_high_s32(b)));
-}
-
 /* Where the windows' texels and weights are. */
 typedef struct {
     const uint8_t *data;
@@ -97,10 +93,10 @@ NEON_INLINE void weigh_patch(const patch_t *patch, const window_t *window, const
         uint8_t *out = patch->out + r * patch->stride;
         for (const int32_t *end = x_q18 + width; x_q18 < end; x_q18 += PATCH_STEP, y_q18 += PATCH_STEP) {
             const window_step_t step = window_step(&from, x_q18, y_q18, 1);
-            const int32x4_t left = add_texels(weigh(&tables, &step, 0, ny, columns, negative),
-                                              weigh(&tables, &step, 1, ny, columns, negative));
-            const int32x4_t right = add_texels(weigh(&tables, &step, 2, ny, columns, negative),
-                                               weigh(&tables, &step, 3, ny, columns, negative));
+            const int32x4_t left = chroma_from_sums(weigh(&tables, &step, 0, ny, columns, negative),
+                                                    weigh(&tables, &step, 1, ny, columns, negative));
+            const int32x4_t right = chroma_from_sums(weigh(&tables, &step, 2, ny, columns, negative),
+                                                     weigh(&tables, &step, 3, ny, columns, negative));
             vst1_u8(out, pixels_from_sums(left, right, negative));
             out += 2 * PATCH_STEP;
         }
@@ -181,8 +177,12 @@ void resample_window_chroma_neon(const patch_t *patch, const window_t *window)
 {
     const image_t *picture = &window->picture;
     const int32_t nx = window->x.taps, ny = window->y.taps;
-    if (!offsets_fit(picture->stride, picture->height) || !window_is_short(window)) {
+    if (!offsets_fit(picture->stride, picture->height)) {
         resample_window_chroma_scalar(patch, window);
+        return;
+    }
+    if (!window_is_short(window)) {
+        resample_long_chroma_neon(patch, window);
         return;
     }
     const texels_t texels = texels_of(picture);

@@ -26,4 +26,23 @@ static inline int32x4_t window_sums_gray(const int16_t *v, const int16_t *second
     return sums;
 }
 
+/** @return Sums of U, V of even texels, then of odd ones. v is 0 beyond the window, up to a multiple of four texels. */
+static inline int32x4_t window_sums_chroma(const int16_t *v, const int16_t *second, int32_t taps)
+{
+    int32x4_t sums = vdupq_n_s32(0);
+    for (int32_t u = 0; u < taps; u += 4) {
+        const int16x8_t values = vld1q_s16(v + 2 * u);
+        const int16x4_t weights = vld1_s16(second + u);
+        sums = vmlal_s16(sums, vget_low_s16(values), vzip1_s16(weights, weights));
+        sums = vmlal_s16(sums, vget_high_s16(values), vzip2_s16(weights, weights));
+    }
+    return sums;
+}
+
+/** @return U, V of two pixels, from sums of even and of odd texels of each. */
+static inline int32x4_t chroma_from_sums(int32x4_t a, int32x4_t b)
+{
+    return vaddq_s32(vcombine_s32(vget_low_s32(a), vget_low_s32(b)), vcombine_s32(vget_high_s32(a), vget_high_s32(b)));
+}
+
 #endif

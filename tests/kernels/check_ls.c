@@ -98,6 +98,11 @@ static void fill_points(int32_t *point_q18, int32_t size, rng_t *rng)
             point_q18[r * PATCH_MAX_WIDTH + k] = at + k * by_column + r * by_row;
 }
 
+static resample_ls_fn *surface_loop(const warp_kernels_t *kernels, image_format_t format)
+{
+    return format == IMAGE_GRAY8 ? kernels->ls_gray : format == IMAGE_UV88 ? kernels->ls_chroma : kernels->ls_xrgb;
+}
+
 static void check_surface(const warp_kernels_t *tested, image_format_t format, rng_t *rng)
 {
     static fenced_t memory;
@@ -118,9 +123,8 @@ static void check_surface(const warp_kernels_t *tested, image_format_t format, r
         outputs_begin(&outputs, (size_t)(width * height) * format);
         const patch_t expected = {outputs.expected, width * (ptrdiff_t)format, x, y, width, height};
         const patch_t found = {outputs.found, width * (ptrdiff_t)format, x, y, width, height};
-        const int gray = format == IMAGE_GRAY8;
-        (gray ? warp_kernels_scalar.ls_gray : warp_kernels_scalar.ls_xrgb)(&expected, &surface);
-        (gray ? tested->ls_gray : tested->ls_xrgb)(&found, &surface);
+        surface_loop(&warp_kernels_scalar, format)(&expected, &surface);
+        surface_loop(tested, format)(&found, &surface);
         outputs_compare(&outputs);
     }
 }
@@ -128,7 +132,7 @@ static void check_surface(const warp_kernels_t *tested, image_format_t format, r
 void check_ls(const warp_kernels_t *tested)
 {
     static uint16_t weight[LS_MAX_SIZE];
-    for (uint64_t seed = 1; seed <= 60; seed++) {
+    for (uint64_t seed = 1; seed <= 90; seed++) {
         rng_t rng = {seed};
         const int uniform = (int)rng_int(&rng, 0, 1);
         for (int i = 0; i < LS_MAX_SIZE; i++)
@@ -143,6 +147,6 @@ void check_ls(const warp_kernels_t *tested)
             check_pixels(tested, &rng);
             check_scale(tested, &rng);
         }
-        check_surface(tested, seed % 2 ? IMAGE_GRAY8 : IMAGE_XRGB8888, &rng);
+        check_surface(tested, (image_format_t)(1 << seed % 3), &rng);
     }
 }
