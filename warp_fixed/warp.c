@@ -60,8 +60,7 @@ static void filter(warp_t *warp, int plane, worker_t worker)
     }
 }
 
-/* The first unit of a worker: where the units before cost nearest to what the workers before it should do.
- */
+/* The first unit of a worker: where the units before cost nearest to what the workers before it should do. */
 static int32_t first_unit(const warp_t *warp, worker_t worker)
 {
     const int32_t *cost = warp->cost_before;
