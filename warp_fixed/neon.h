@@ -83,4 +83,25 @@ static inline int32x4_t shift_saturated(int32x4_t x, int32x4_t shift)
 #endif
 }
 
+/** @return a weights[2 pair] + b weights[2 pair + 1]: v is a, four values, and b. All are below 2^15. */
+NEON_INLINE uint32x4_t two_weighed(uint16x8_t v, uint16x8_t weights, int pair)
+{
+#ifdef __SSE2__
+    return x86_two_weighed(v, weights, pair);
+#else
+    const uint16x4_t a = vget_low_u16(v), b = vget_high_u16(v);
+    const uint16x4_t left = vget_low_u16(weights), right = vget_high_u16(weights);
+    switch (pair) {
+    case 0:
+        return vmlal_lane_u16(vmull_lane_u16(a, left, 0), b, left, 1);
+    case 1:
+        return vmlal_lane_u16(vmull_lane_u16(a, left, 2), b, left, 3);
+    case 2:
+        return vmlal_lane_u16(vmull_lane_u16(a, right, 0), b, right, 1);
+    default:
+        return vmlal_lane_u16(vmull_lane_u16(a, right, 2), b, right, 3);
+    }
+#endif
+}
+
 #endif

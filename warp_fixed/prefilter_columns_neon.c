@@ -34,9 +34,7 @@ static inline columns_t add_pairs(columns_t sums, uint8x16_t above, uint8x16_t b
 
 static inline int16x8_t first_pass(sums_t sums)
 {
-    enum { SHIFT = FILTER_SUM_LOG2 - FILTER_FIRST_BITS };
-    return vsubq_s16(vcombine_s16(vrshrn_n_s32(sums.low, SHIFT), vrshrn_n_s32(sums.high, SHIFT)),
-                     vdupq_n_s16(COEFFICIENT_MIDDLE << FILTER_FIRST_BITS));
+    return vsubq_s16(first_pass_sums(sums), vdupq_n_s16(COEFFICIENT_MIDDLE << FILTER_FIRST_BITS));
 }
 
 static inline void store_columns(int16_t *v, columns_t sums)

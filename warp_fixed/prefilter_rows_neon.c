@@ -77,11 +77,8 @@ NEON_INLINE void store_row(row_out_t out, row_sums_t sums)
 {
     _Static_assert(FILTER_SUM_LOG2 + FILTER_FIRST_BITS - COEFFICIENT_BITS == 16, "what is narrowed are coefficients");
     int16x8_t narrow[VECTORS];
-    for (int i = 0; i < VECTORS; i++) {
-        const sums_t eight = sums.eight[i];
-        narrow[i] = out.to_bytes ? vcombine_s16(vshrn_n_s32(eight.low, 16), vshrn_n_s32(eight.high, 16))
-                                 : vcombine_s16(vrshrn_n_s32(eight.low, 16), vrshrn_n_s32(eight.high, 16));
-    }
+    for (int i = 0; i < VECTORS; i++)
+        narrow[i] = out.to_bytes ? upper_halves(sums.eight[i]) : rounded_upper_halves(sums.eight[i]);
     for (int i = 0; i < VECTORS; i++) {
         if (out.to_bytes) {
             const int16x8_t grey = vaddq_s16(narrow[i], vdupq_n_s16(COEFFICIENT_MIDDLE << COEFFICIENT_BITS));

@@ -47,21 +47,10 @@ static inline uint8x8_t levels(uint32x4_t a, uint32x4_t b)
     return vshrn_n_u16(vcombine_u16(vaddhn_u32(a, rounding), vaddhn_u32(b, rounding)), SUM_SHIFT - 16);
 }
 
-/* First-pass sums of two columns of four channels. */
+/* First-pass sums of two columns of four channels: at most 255 * FIRST_SUM, below 2^15. */
 static inline uint16x8_t columns(const uint8_t *above, const uint8_t *below, const uint8_t *upper, const uint8_t *lower)
 {
     return vmlal_u8(vmull_u8(vld1_u8(above), vld1_dup_u8(upper)), vld1_u8(below), vld1_dup_u8(lower));
-}
-
-/* Second-pass sums of one pixel, and of the one after it, whose weights are next to its own. */
-static inline uint32x4_t weigh_even(uint16x8_t v, uint16x4_t second)
-{
-    return vmlal_lane_u16(vmull_lane_u16(vget_low_u16(v), second, 0), vget_high_u16(v), second, 1);
-}
-
-static inline uint32x4_t weigh_odd(uint16x8_t v, uint16x4_t second)
-{
-    return vmlal_lane_u16(vmull_lane_u16(vget_low_u16(v), second, 2), vget_high_u16(v), second, 3);
 }
 
 /* Four pixels: offsets of their windows, a byte each of the first pass' weights, pairs of the second's. */
@@ -69,13 +58,12 @@ static inline uint8x16_t four_xrgb(const window_source_t *from, uint32x4_t texel
                                    const uint8_t *lower, uint16x8_t second)
 {
     const uint8_t *above = from->data, *below = from->data + from->stride;
-    const uint16x4_t left = vget_low_u16(second), right = vget_high_u16(second);
     uint32_t at[4];
     vst1q_u32(at, texel);
-    const uint32x4_t a = weigh_even(columns(above + at[0], below + at[0], &upper[0], &lower[0]), left);
-    const uint32x4_t b = weigh_odd(columns(above + at[1], below + at[1], &upper[1], &lower[1]), left);
-    const uint32x4_t c = weigh_even(columns(above + at[2], below + at[2], &upper[2], &lower[2]), right);
-    const uint32x4_t d = weigh_odd(columns(above + at[3], below + at[3], &upper[3], &lower[3]), right);
+    const uint32x4_t a = two_weighed(columns(above + at[0], below + at[0], &upper[0], &lower[0]), second, 0);
+    const uint32x4_t b = two_weighed(columns(above + at[1], below + at[1], &upper[1], &lower[1]), second, 1);
+    const uint32x4_t c = two_weighed(columns(above + at[2], below + at[2], &upper[2], &lower[2]), second, 2);
+    const uint32x4_t d = two_weighed(columns(above + at[3], below + at[3], &upper[3], &lower[3]), second, 3);
     return vcombine_u8(levels(a, b), levels(c, d));
 }
 
