@@ -259,7 +259,7 @@ void resample_coefficients_xrgb_neon(const patch_t *patch, const window_t *windo
 
 void resample_coefficients_chroma_neon(const patch_t *patch, const window_t *window)
 {
-    if (!is_short(window)) {
+    if (!window_is_short(window)) {
         resample_long_coefficients_chroma_neon(patch, window);
         return;
     }
