@@ -8,11 +8,11 @@
  * mean. A tap of a filter: cases gauss and kaiser, of 7. Coefficients and fit are in no case; they were counted in the
  * same way.
  */
-enum { TENTHS_PER_UNIT = 10000, TAP_PICTURE_PIXEL = 84, SPLINE_PICTURE_PIXEL = 1280, LS_PICTURE_PIXEL = 1000 };
+enum { TENTHS_PER_UNIT = 10000, TAP_PICTURE_PIXEL = 26, SPLINE_PICTURE_PIXEL = 571, LS_PICTURE_PIXEL = 800 };
 
 static const uint16_t lit_pixel[] = {
-    [WARP_NEAREST] = 434, [WARP_LINEAR] = 589, [WARP_CUBIC] = 804,       [WARP_SPLINE] = 2205,
-    [WARP_LS] = 5660,     [WARP_AREA] = 726,   [WARP_MEAN_CUBIC] = 1128, [WARP_MEAN_SPLINE] = 3197,
+    [WARP_NEAREST] = 134, [WARP_LINEAR] = 253, [WARP_CUBIC] = 410,      [WARP_SPLINE] = 570,
+    [WARP_LS] = 1107,     [WARP_AREA] = 379,   [WARP_MEAN_CUBIC] = 629, [WARP_MEAN_SPLINE] = 833,
 };
 
 /* Half lengths for k = 1, Q8 (fir_design.h): 4 sigma, sigma = sqrt(ln 2) / pi; 6; butter's is cut at about 8. */
