@@ -93,13 +93,16 @@ double float_side(int32_t side)
 /* One axis of the interpolating spline's coefficients, from its closed form; count values, `step` apart. */
 static void coefficients_along(double *values, int count, int step)
 {
-    double in[IMAGE_MAX_WIDTH];
+    enum { REACH = 40 }; /* 0.27^40 is nothing */
+    double in[IMAGE_MAX_WIDTH], weight[2 * REACH + 1];
+    for (int m = -REACH; m <= REACH; m++)
+        weight[REACH + m] = sqrt(3) * pow(2 - sqrt(3), abs(m)) * (m % 2 == 0 ? 1 : -1);
     for (int n = 0; n < count; n++)
         in[n] = values[n * step];
     for (int n = 0; n < count; n++) {
         double sum = 0;
-        for (int m = -40; m <= 40; m++) /* 0.27^40 is nothing */
-            sum += sqrt(3) * pow(2 - sqrt(3), abs(m)) * (m % 2 == 0 ? 1 : -1) * in[mirror_index(n + m, count)];
+        for (int m = -REACH; m <= REACH; m++)
+            sum += weight[REACH + m] * in[mirror_index(n + m, count)];
         values[n * step] = sum;
     }
 }

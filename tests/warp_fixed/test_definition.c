@@ -84,8 +84,9 @@ static uint8_t float_pixel(warp_resampler_t resampler, const int32_t point_q18[2
     else
         for (int v = 0; v < TAPS; v++)
             for (int u = 0; u < TAPS; u++)
-                value += weight[1][v] * weight[0][u] *
-                         surface[mirror_index(begin[1] + v, HEIGHT) * WIDTH + mirror_index(begin[0] + u, WIDTH)];
+                if (weight[1][v] != 0 && weight[0][u] != 0) /* few are not */
+                    value += weight[1][v] * weight[0][u] *
+                             surface[mirror_index(begin[1] + v, HEIGHT) * WIDTH + mirror_index(begin[0] + u, WIDTH)];
     return (uint8_t)floor(fmax(0, fmin(255, value)) + 0.5);
 }
 
