@@ -110,8 +110,12 @@ static inline int32x2_t vrshrn_n_s64(int64x2_t a, int n)
 /* See x86_sixteen_bits(). */
 static inline int16x8_t x86_eight_shifted(__m256i a, int n)
 {
+#ifdef __AVX512VL__
+    return (int16x8_t)_mm256_cvtepi32_epi16(_mm256_srli_epi32(a, n));
+#else
     const __m256i bits = _mm256_srai_epi32(_mm256_slli_epi32(a, 16 - n), 16);
     return (int16x8_t)_mm_packs_epi32(_mm256_castsi256_si128(bits), _mm256_extracti128_si256(bits, 1));
+#endif
 }
 #endif
 
