@@ -22,8 +22,8 @@ static const uint16_t half_length_q8[] = {
 /* @return WARP_AUTO for nothing: no step down leads there. */
 static warp_resampler_t below(const warp_method_t *method)
 {
-    if (method->filter != WARP_FILTER_NONE)
-        return WARP_AREA;
+    if (method->filter != WARP_FILTER_NONE) /* area costs more than a short filter and nearest */
+        return method->resampler == WARP_NEAREST ? WARP_LINEAR : WARP_AREA;
     switch (method->resampler) {
     case WARP_AUTO:
     case WARP_LS:

@@ -20,6 +20,7 @@ typedef struct {
  *
  *   mean+spline, auto, ls -> mean+cubic -> area -> none+linear -> none+nearest
  *   filter+any            ->               area -> none+linear -> none+nearest
+ *   filter+nearest        ->                       none+linear -> none+nearest
  *   none+spline           -> none+cubic         -> none+linear -> none+nearest
  *
  * and the rest from where they stand in these rows. `area` takes the place of every filter: it does for each pixel

@@ -37,7 +37,7 @@ static void test_what_stands_in_for_what(void **state)
     assert_ladder("mean+cubic area none+linear none+nearest");
     assert_ladder("area none+linear none+nearest");
     assert_ladder("kaiser+spline area none+linear none+nearest");
-    assert_ladder("gauss+nearest area none+linear none+nearest");
+    assert_ladder("gauss+nearest none+linear none+nearest");
     assert_ladder("none+spline none+cubic none+linear none+nearest");
     assert_ladder("none+cubic none+linear none+nearest");
     assert_ladder("none+linear none+nearest");
