@@ -92,8 +92,16 @@ static inline int32x2_t x86_lower_halves(__m128i a)
     return (int32x2_t)x86_low(_mm_shuffle_epi32(a, _MM_SHUFFLE(2, 0, 2, 0)));
 }
 
+#undef vmul_s32
 #undef vshrn_n_s64
 #undef vrshrn_n_s64
+
+/* The lower half of a product is the same with and without signs. */
+static inline int32x2_t vmul_s32(int32x2_t a, int32x2_t b)
+{
+    const __m128i x = x86_wide((uint8x8_t)a), y = x86_wide((uint8x8_t)b);
+    return x86_lower_halves(_mm_mul_epu32(_mm_unpacklo_epi32(x, x), _mm_unpacklo_epi32(y, y)));
+}
 
 /* n <= 32: which bits come in from above does not matter. */
 static inline int32x2_t vshrn_n_s64(int64x2_t a, int n)

@@ -232,13 +232,7 @@ static inline __m256i x86_add_eight_products(__m256i sums, int16x8_t a, int16_t 
 #endif
 
 #ifdef __SSE4_1__
-#undef vmul_s32
 #undef vmull_s32
-
-static inline int32x2_t vmul_s32(int32x2_t a, int32x2_t b)
-{
-    return (int32x2_t)x86_low(_mm_mullo_epi32(x86_wide((uint8x8_t)a), x86_wide((uint8x8_t)b)));
-}
 
 static inline int64x2_t vmull_s32(int32x2_t a, int32x2_t b)
 {
