@@ -34,106 +34,56 @@ static inline uint8x8_t pixels_from_sums(int32x4_t sums)
     return vqshrun_n_s16(vcombine_s16(high, high), SHIFT - 16);
 }
 
-static void row_xrgb(uint8_t *out, const window_t *window, const int32_t *x_q18, const int32_t *y_q18, int32_t count)
+static void weigh_xrgb(uint8_t *out, const window_t *window, int32_t texel, const int16_t *first, const int16_t *second)
 {
-    const ptrdiff_t stride = (ptrdiff_t)window->coefficients.width * 4;
-    const int32_t nx = window->x.taps, ny = window->y.taps;
-    const placer_t placer = placer_of(window, (nx + 1) & -2, stride);
     int16_t v[4 * WINDOW_MAX_TAPS + LANES];
-    places_t places;
-    int32_t k = 0;
-    for (; k + PLACE_STEP <= count; k += PLACE_STEP) {
-        if (!find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
-            const patch_t few = {out + (ptrdiff_t)k * 4, 0, x_q18 + k, y_q18 + k, PLACE_STEP, 1};
-            resample_coefficients_xrgb_scalar(&few, window);
-            continue;
-        }
-        for (int i = 0; i < PLACE_STEP; i++) {
-            const int16_t *corner = window->coefficients.data + places.texel[i];
-            first_pass(v, corner, stride, window->y.first + places.row_y[i] * window->y.row, ny, 4 * nx);
-            const int32x4_t sums = window_sums_xrgb(v, window->x.second + places.row_x[i] * window->x.row, nx, 0);
-            const uint8x8_t pixel = pixels_from_sums(sums);
-            memcpy(out + (ptrdiff_t)(k + i) * 4, &pixel, 4);
-        }
-    }
-    const patch_t few = {out + (ptrdiff_t)k * 4, 0, x_q18 + k, y_q18 + k, count - k, 1};
-    resample_coefficients_xrgb_scalar(&few, window);
+    const int32_t nx = window->x.taps;
+    first_pass(v, window->coefficients.data + texel, (ptrdiff_t)window->coefficients.width * 4, first, window->y.taps,
+               4 * nx);
+    const uint8x8_t pixel = pixels_from_sums(window_sums_xrgb(v, second, nx, 0));
+    memcpy(out, &pixel, 4);
 }
 
 void resample_long_coefficients_xrgb_neon(const patch_t *patch, const window_t *window)
 {
-    for (int32_t r = 0; r < patch->height; r++)
-        row_xrgb(patch->out + r * patch->stride, window, patch->x_q18 + r * PATCH_MAX_WIDTH,
-                 patch->y_q18 + r * PATCH_MAX_WIDTH, patch->width);
+    const placed_loop_t loop = {weigh_xrgb, resample_coefficients_xrgb_scalar,
+                                (ptrdiff_t)window->coefficients.width * 4, (window->x.taps + 1) & -2, 4};
+    weigh_placed(patch, window, &loop);
 }
 
-static void row_chroma(uint8_t *out, const window_t *window, const int32_t *x_q18, const int32_t *y_q18, int32_t count)
+static void weigh_chroma(uint8_t *out, const window_t *window, int32_t texel, const int16_t *first,
+                         const int16_t *second)
 {
-    const ptrdiff_t stride = (ptrdiff_t)window->coefficients.width * 2;
-    const int32_t nx = window->x.taps, ny = window->y.taps;
-    const placer_t placer = placer_of(window, (nx + 3) & -4, stride);
     int16_t v[2 * WINDOW_MAX_TAPS + 2 * LANES];
-    places_t places;
-    int32_t k = 0;
-    for (; k + PLACE_STEP <= count; k += PLACE_STEP) {
-        if (!find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
-            const patch_t few = {out + (ptrdiff_t)k * 2, 0, x_q18 + k, y_q18 + k, PLACE_STEP, 1};
-            resample_coefficients_chroma_scalar(&few, window);
-            continue;
-        }
-        for (int i = 0; i < PLACE_STEP; i++) {
-            const int16_t *corner = window->coefficients.data + places.texel[i];
-            first_pass(v, corner, stride, window->y.first + places.row_y[i] * window->y.row, ny, 2 * nx);
-            vst1q_s16(v + 2 * nx, vdupq_n_s16(0));
-            const int32x4_t sums = window_sums_chroma(v, window->x.second + places.row_x[i] * window->x.row, nx);
-            const int32x2_t both = vadd_s32(vget_low_s32(sums), vget_high_s32(sums));
-            const uint8x8_t pixel = pixels_from_sums(vcombine_s32(both, both));
-            memcpy(out + (ptrdiff_t)(k + i) * 2, &pixel, 2);
-        }
-    }
-    const patch_t few = {out + (ptrdiff_t)k * 2, 0, x_q18 + k, y_q18 + k, count - k, 1};
-    resample_coefficients_chroma_scalar(&few, window);
+    const int32_t nx = window->x.taps;
+    first_pass(v, window->coefficients.data + texel, (ptrdiff_t)window->coefficients.width * 2, first, window->y.taps,
+               2 * nx);
+    vst1q_s16(v + 2 * nx, vdupq_n_s16(0));
+    const int32x4_t sums = window_sums_chroma(v, second, nx);
+    const int32x2_t both = vadd_s32(vget_low_s32(sums), vget_high_s32(sums));
+    const uint8x8_t pixel = pixels_from_sums(vcombine_s32(both, both));
+    memcpy(out, &pixel, 2);
 }
 
 void resample_long_coefficients_chroma_neon(const patch_t *patch, const window_t *window)
 {
-    for (int32_t r = 0; r < patch->height; r++)
-        row_chroma(patch->out + r * patch->stride, window, patch->x_q18 + r * PATCH_MAX_WIDTH,
-                   patch->y_q18 + r * PATCH_MAX_WIDTH, patch->width);
+    const placed_loop_t loop = {weigh_chroma, resample_coefficients_chroma_scalar,
+                                (ptrdiff_t)window->coefficients.width * 2, (window->x.taps + 3) & -4, 2};
+    weigh_placed(patch, window, &loop);
 }
 
-static void row_gray(uint8_t *out, const window_t *window, const int32_t *x_q18, const int32_t *y_q18, int32_t count)
+static void weigh_gray(uint8_t *out, const window_t *window, int32_t texel, const int16_t *first, const int16_t *second)
 {
-    const ptrdiff_t stride = window->coefficients.width;
-    const int32_t nx = window->x.taps, ny = window->y.taps;
-    const placer_t placer = placer_of(window, (nx + LANES - 1) & -LANES, stride);
     int16_t v[WINDOW_MAX_TAPS + 2 * LANES];
-    places_t places;
-    int32_t k = 0;
-    for (; k + PLACE_STEP <= count; k += PLACE_STEP) {
-        if (!find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
-            const patch_t few = {out + k, 0, x_q18 + k, y_q18 + k, PLACE_STEP, 1};
-            resample_coefficients_gray_scalar(&few, window);
-            continue;
-        }
-        int32x4_t sums[PLACE_STEP];
-        for (int i = 0; i < PLACE_STEP; i++) {
-            const int16_t *corner = window->coefficients.data + places.texel[i];
-            first_pass(v, corner, stride, window->y.first + places.row_y[i] * window->y.row, ny, nx);
-            vst1q_s16(v + nx, vdupq_n_s16(0));
-            sums[i] = window_sums_gray(v, window->x.second + places.row_x[i] * window->x.row, nx);
-        }
-        const uint8x8_t pixels =
-            pixels_from_sums(vpaddq_s32(vpaddq_s32(sums[0], sums[1]), vpaddq_s32(sums[2], sums[3])));
-        memcpy(out + k, &pixels, PLACE_STEP);
-    }
-    const patch_t few = {out + k, 0, x_q18 + k, y_q18 + k, count - k, 1};
-    resample_coefficients_gray_scalar(&few, window);
+    const int32_t nx = window->x.taps;
+    first_pass(v, window->coefficients.data + texel, (ptrdiff_t)window->coefficients.width, first, window->y.taps, nx);
+    vst1q_s16(v + nx, vdupq_n_s16(0));
+    *out = pixel_from_centred(vaddvq_s32(window_sums_gray(v, second, nx)), SHIFT);
 }
 
 void resample_long_coefficients_gray_neon(const patch_t *patch, const window_t *window)
 {
-    for (int32_t r = 0; r < patch->height; r++)
-        row_gray(patch->out + r * patch->stride, window, patch->x_q18 + r * PATCH_MAX_WIDTH,
-                 patch->y_q18 + r * PATCH_MAX_WIDTH, patch->width);
+    const placed_loop_t loop = {weigh_gray, resample_coefficients_gray_scalar, (ptrdiff_t)window->coefficients.width,
+                                (window->x.taps + LANES - 1) & -LANES, 1};
+    weigh_placed(patch, window, &loop);
 }

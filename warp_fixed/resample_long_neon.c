@@ -50,110 +50,57 @@ static inline uint8x8_t pixel_from_sums(int32x4_t sums)
     return vqshrun_n_s16(vcombine_s16(high, high), SUM_SHIFT - 16);
 }
 
-static void row_xrgb(uint8_t *out, const window_t *window, const int32_t *x_q18, const int32_t *y_q18, int32_t count)
+static void weigh_xrgb(uint8_t *out, const window_t *window, int32_t texel, const int16_t *first, const int16_t *second)
 {
-    const ptrdiff_t stride = window->picture.stride;
+    int16_t v[4 * WINDOW_MAX_TAPS + LANES];
     const int32_t nx = window->x.taps;
     const offset_t offset = offset_of(window);
-    const placer_t placer = placer_of(window, (nx + 1) & -2, stride);
-    int16_t v[4 * WINDOW_MAX_TAPS + LANES];
-    places_t places;
-    int32_t k = 0;
-    for (; k + PLACE_STEP <= count; k += PLACE_STEP) {
-        if (!find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
-            const patch_t few = {out + (ptrdiff_t)k * 4, 0, x_q18 + k, y_q18 + k, PLACE_STEP, 1};
-            resample_window_xrgb_scalar(&few, window);
-            continue;
-        }
-        for (int i = 0; i < PLACE_STEP; i++) {
-            const uint8_t *texels = window->picture.data + places.texel[i];
-            first_pass(v, texels, stride, &window->y, window->y.first + places.row_y[i] * window->y.row, 4 * nx,
-                       offset.middle);
-            const int16_t *second = window->x.second + places.row_x[i] * window->x.row;
-            const uint8x8_t pixel = pixel_from_sums(window_sums_xrgb(v, second, nx, offset.start));
-            memcpy(out + (ptrdiff_t)(k + i) * 4, &pixel, 4);
-        }
-    }
-    const patch_t few = {out + (ptrdiff_t)k * 4, 0, x_q18 + k, y_q18 + k, count - k, 1};
-    resample_window_xrgb_scalar(&few, window);
+    first_pass(v, window->picture.data + texel, window->picture.stride, &window->y, first, 4 * nx, offset.middle);
+    const uint8x8_t pixel = pixel_from_sums(window_sums_xrgb(v, second, nx, offset.start));
+    memcpy(out, &pixel, 4);
 }
 
 void resample_long_xrgb_neon(const patch_t *patch, const window_t *window)
 {
-    for (int32_t r = 0; r < patch->height; r++)
-        row_xrgb(patch->out + r * patch->stride, window, patch->x_q18 + r * PATCH_MAX_WIDTH,
-                 patch->y_q18 + r * PATCH_MAX_WIDTH, patch->width);
+    const placed_loop_t loop = {weigh_xrgb, resample_window_xrgb_scalar, window->picture.stride,
+                                (window->x.taps + 1) & -2, 4};
+    weigh_placed(patch, window, &loop);
 }
 
-static void row_chroma(uint8_t *out, const window_t *window, const int32_t *x_q18, const int32_t *y_q18, int32_t count)
+static void weigh_chroma(uint8_t *out, const window_t *window, int32_t texel, const int16_t *first,
+                         const int16_t *second)
 {
-    const ptrdiff_t stride = window->picture.stride;
+    int16_t v[2 * WINDOW_MAX_TAPS + 2 * LANES];
     const int32_t nx = window->x.taps;
     const offset_t offset = offset_of(window);
-    const placer_t placer = placer_of(window, (nx + 3) & -4, stride);
-    int16_t v[2 * WINDOW_MAX_TAPS + 2 * LANES];
-    places_t places;
-    int32_t k = 0;
-    for (; k + PLACE_STEP <= count; k += PLACE_STEP) {
-        if (!find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
-            const patch_t few = {out + (ptrdiff_t)k * 2, 0, x_q18 + k, y_q18 + k, PLACE_STEP, 1};
-            resample_window_chroma_scalar(&few, window);
-            continue;
-        }
-        for (int i = 0; i < PLACE_STEP; i++) {
-            const uint8_t *texels = window->picture.data + places.texel[i];
-            first_pass(v, texels, stride, &window->y, window->y.first + places.row_y[i] * window->y.row, 2 * nx,
-                       offset.middle);
-            vst1q_s16(v + 2 * nx, vdupq_n_s16(0));
-            const int32x4_t sums = window_sums_chroma(v, window->x.second + places.row_x[i] * window->x.row, nx);
-            const int32x2_t both =
-                vadd_s32(vdup_n_s32(offset.start), vadd_s32(vget_low_s32(sums), vget_high_s32(sums)));
-            const uint8x8_t pixel = pixel_from_sums(vcombine_s32(both, both));
-            memcpy(out + (ptrdiff_t)(k + i) * 2, &pixel, 2);
-        }
-    }
-    const patch_t few = {out + (ptrdiff_t)k * 2, 0, x_q18 + k, y_q18 + k, count - k, 1};
-    resample_window_chroma_scalar(&few, window);
+    first_pass(v, window->picture.data + texel, window->picture.stride, &window->y, first, 2 * nx, offset.middle);
+    vst1q_s16(v + 2 * nx, vdupq_n_s16(0));
+    const int32x4_t sums = window_sums_chroma(v, second, nx);
+    const int32x2_t both = vadd_s32(vdup_n_s32(offset.start), vadd_s32(vget_low_s32(sums), vget_high_s32(sums)));
+    const uint8x8_t pixel = pixel_from_sums(vcombine_s32(both, both));
+    memcpy(out, &pixel, 2);
 }
 
 void resample_long_chroma_neon(const patch_t *patch, const window_t *window)
 {
-    for (int32_t r = 0; r < patch->height; r++)
-        row_chroma(patch->out + r * patch->stride, window, patch->x_q18 + r * PATCH_MAX_WIDTH,
-                   patch->y_q18 + r * PATCH_MAX_WIDTH, patch->width);
+    const placed_loop_t loop = {weigh_chroma, resample_window_chroma_scalar, window->picture.stride,
+                                (window->x.taps + 3) & -4, 2};
+    weigh_placed(patch, window, &loop);
 }
 
-static void row_gray(uint8_t *out, const window_t *window, const int32_t *x_q18, const int32_t *y_q18, int32_t count)
+static void weigh_gray(uint8_t *out, const window_t *window, int32_t texel, const int16_t *first, const int16_t *second)
 {
-    const ptrdiff_t stride = window->picture.stride;
+    int16_t v[WINDOW_MAX_TAPS + 2 * LANES];
     const int32_t nx = window->x.taps;
     const offset_t offset = offset_of(window);
-    const placer_t placer = placer_of(window, (nx + LANES - 1) & -LANES, stride);
-    int16_t v[WINDOW_MAX_TAPS + 2 * LANES];
-    places_t places;
-    int32_t k = 0;
-    for (; k + PLACE_STEP <= count; k += PLACE_STEP) {
-        if (!find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
-            const patch_t few = {out + k, 0, x_q18 + k, y_q18 + k, PLACE_STEP, 1};
-            resample_window_gray_scalar(&few, window);
-            continue;
-        }
-        for (int i = 0; i < PLACE_STEP; i++) {
-            const uint8_t *texels = window->picture.data + places.texel[i];
-            first_pass(v, texels, stride, &window->y, window->y.first + places.row_y[i] * window->y.row, nx,
-                       offset.middle);
-            vst1q_s16(v + nx, vdupq_n_s16(0));
-            const int16_t *second = window->x.second + places.row_x[i] * window->x.row;
-            out[k + i] = pixel_from_sum(offset.start + vaddvq_s32(window_sums_gray(v, second, nx)));
-        }
-    }
-    const patch_t few = {out + k, 0, x_q18 + k, y_q18 + k, count - k, 1};
-    resample_window_gray_scalar(&few, window);
+    first_pass(v, window->picture.data + texel, window->picture.stride, &window->y, first, nx, offset.middle);
+    vst1q_s16(v + nx, vdupq_n_s16(0));
+    *out = pixel_from_sum(offset.start + vaddvq_s32(window_sums_gray(v, second, nx)));
 }
 
 void resample_long_gray_neon(const patch_t *patch, const window_t *window)
 {
-    for (int32_t r = 0; r < patch->height; r++)
-        row_gray(patch->out + r * patch->stride, window, patch->x_q18 + r * PATCH_MAX_WIDTH,
-                 patch->y_q18 + r * PATCH_MAX_WIDTH, patch->width);
+    const placed_loop_t loop = {weigh_gray, resample_window_gray_scalar, window->picture.stride,
+                                (window->x.taps + LANES - 1) & -LANES, 1};
+    weigh_placed(patch, window, &loop);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the windows of four points lie, and whether all of them are within the picture.
+// Windows of any length, placed four at a time: where they lie, and whether all of them are within the picture.
 #ifndef WARP_FIXED_WINDOW_PLACE_NEON_H
 #define WARP_FIXED_WINDOW_PLACE_NEON_H
 
@@ -74,6 +74,41 @@ static inline bool find_places(places_t *places, const placer_t *placer, const i
     vst1q_s32(places->row_x, vandq_s32(x, mask));
     vst1q_s32(places->row_y, vandq_s32(y, mask));
     return vminvq_s32(vminq_s32(inside(&placer->x, u), inside(&placer->y, v))) >= 0;
+}
+
+/** Weigh the window of one pixel: `texel` as in places_t, and the rows of its weights. */
+typedef void weigh_placed_fn(uint8_t *out, const window_t *window, int32_t texel, const int16_t *first,
+                             const int16_t *second);
+
+/** How a loop that places its windows four at a time reads and writes. */
+typedef struct {
+    weigh_placed_fn *weigh;
+    resample_window_fn *scalar; /**< for windows that leave the picture, and what is left over at the end of a row */
+    ptrdiff_t stride;           /**< elements from row to row */
+    int32_t taps_x;             /**< texels of a row that `weigh` reads from a window's begin on */
+    int32_t pixel_bytes;        /**< of what it writes */
+} placed_loop_t;
+
+static inline void weigh_placed(const patch_t *patch, const window_t *window, const placed_loop_t *loop)
+{
+    const placer_t placer = placer_of(window, loop->taps_x, loop->stride);
+    for (int32_t r = 0; r < patch->height; r++) {
+        const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
+        uint8_t *out = patch->out + r * patch->stride;
+        for (int32_t k = 0; k < patch->width; k += PLACE_STEP) {
+            const int32_t left = patch->width - k, count = left < PLACE_STEP ? left : PLACE_STEP;
+            const patch_t few = {out + k * loop->pixel_bytes, 0, x_q18 + k, y_q18 + k, count, 1};
+            places_t places;
+            if (count < PLACE_STEP || !find_places(&places, &placer, x_q18 + k, y_q18 + k)) {
+                loop->scalar(&few, window);
+                continue;
+            }
+            for (int i = 0; i < PLACE_STEP; i++)
+                loop->weigh(few.out + i * loop->pixel_bytes, window, places.texel[i],
+                            window->y.first + places.row_y[i] * window->y.row,
+                            window->x.second + places.row_x[i] * window->x.row);
+        }
+    }
 }
 
 #endif
