@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "tests/bench/plugin_arguments.h"
 #include "tests/bench/qemu_plugin_abi.h"
 
 enum { MAX_LEFT_OUT = 16, INSTRUCTION_BYTES = 4 };
@@ -114,17 +115,15 @@ static void write_counts(uint64_t id, void *data)
 
 static bool take_argument(char *argument)
 {
-    char *value = strchr(argument, '=');
-    if (value == NULL || value[1] == '\0')
+    char *value = plugin_value(argument);
+    if (value == NULL)
         return false;
-    *value++ = '\0';
     if (strcmp(argument, "out") == 0) {
         counter.out_path = value;
         return true;
     }
-    char *rest;
-    const uint64_t address = strtoull(value, &rest, 16);
-    if (*rest != '\0' || address == 0)
+    const uint64_t address = plugin_address(value);
+    if (address == 0)
         return false;
     if (strcmp(argument, "begin") == 0)
         counter.begin = address;
