@@ -5,6 +5,7 @@
 #include <inttypes.h>
 #include <math.h>
 
+#include "sim/bus/candump_text.h"
 #include "sim/files/folder.h"
 
 enum { US_PER_S = 1000000 };
@@ -38,14 +39,11 @@ void run_files_log(void *context, int sender, const hal_can_frame_t *frame)
 {
     const run_files_t *files = context;
     (void)sender;
-    const int64_t since_us = frame->time_us - files->start_us;
-    fputc('(', files->bus);
-    print_seconds(files->bus, since_us < 0 ? 0 : since_us);
-    fprintf(files->bus, frame->extended ? ") can0 %08" PRIX32 "#" : ") can0 %03" PRIX32 "#", frame->id);
-    if (frame->fd)
-        fprintf(files->bus, "#%d", frame->bit_rate_switch ? 1 : 0);
-    for (int i = 0; i < frame->length; i++)
-        fprintf(files->bus, "%02X", frame->data[i]);
+    hal_can_frame_t logged = *frame;
+    logged.time_us = frame->time_us > files->start_us ? frame->time_us - files->start_us : 0;
+    char line[CANDUMP_TEXT_LENGTH];
+    candump_text_from_frame(line, &logged, "can0");
+    fputs(line, files->bus);
     fputc('\n', files->bus);
 }
 
