@@ -92,14 +92,14 @@ LIBS := $(BUILD)/libsim.a $(BUILD)/libfirmware.a $(BUILD)/libhal.a $(BUILD)/libw
 define link
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  LINK  $@")
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %support.a,$^) $(LIBS) $(LDLIBS) $(1)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %support.a,$^) -Wl,--start-group $(LIBS) -Wl,--end-group $(LDLIBS) $(1)
 endef
 
 $(BUILD)/wallwarp: $(call objects,firmware/main.c board/host/board.c) $(LIBS)
 	$(call link)
 $(BUILD)/wallwarp-%: $(BUILD)/obj/sim/wallwarp_%.c.o $(LIBS)
 	$(call link)
-# Archives are searched in order, and a test's own hal_can_*() comes before the simulator's.
+# A test's own hal_can_*() comes before the simulator's in the archives.
 $(BUILD)/tests/%: $(BUILD)/obj/tests/%.c.o $(BUILD)/libsupport.a $(LIBS)
 	$(call link,-lcmocka)
 

@@ -108,25 +108,26 @@ static void complete_set(can_poses_t *poses, int64_t time_us, can_faults_t *faul
         take_pose(poses, &pose, time_us, faults);
 }
 
-static void take_part(can_poses_t *poses, const hal_can_frame_t *frame, can_faults_t *faults)
+/* @return Was it a part of this viewer's sets, good or bad? */
+static bool take_part(can_poses_t *poses, const hal_can_frame_t *frame, can_faults_t *faults)
 {
     int part = 0;
     uint8_t counter = 0;
     const can_check_t check = can_pose_part_check(frame, poses->viewer, &part, &counter);
     count_check(faults, check);
     if (check != CAN_CHECK_OK)
-        return;
+        return check != CAN_CHECK_OTHER;
 
     if (poses->collecting && frame->time_us - poses->set_began_us > POSE_FROM_CAN_SET_US)
         give_up_set(poses, faults);
     if (poses->collecting && counter == poses->set.newest) {
         if (poses->part_here[part]) {
             faults->duplicate++;
-            return;
+            return true;
         }
     } else {
         if (!carries_on(&poses->set, counter, CAN_E2E_P01_COUNTERS, frame->time_us, faults))
-            return;
+            return true;
         give_up_set(poses, faults);
         poses->collecting = true;
         poses->set_began_us = frame->time_us;
@@ -136,6 +137,7 @@ static void take_part(can_poses_t *poses, const hal_can_frame_t *frame, can_faul
     poses->part_here[part] = true;
     if (poses->part_here[0] && poses->part_here[1] && poses->part_here[2])
         complete_set(poses, frame->time_us, faults);
+    return true;
 }
 
 static void leave_bus_off(hal_can_t *can, can_faults_t *faults)
@@ -145,6 +147,11 @@ static void leave_bus_off(hal_can_t *can, can_faults_t *faults)
     faults->bus_off++;
     if (hal_can_restart(can) != HAL_OK)
         faults->io++;
+}
+
+bool pose_from_frame(can_poses_t *poses, const hal_can_frame_t *frame, can_faults_t *faults)
+{
+    return take_fd(poses, frame, faults) || take_part(poses, frame, faults);
 }
 
 void pose_from_can(can_poses_t *poses, hal_can_t *can, can_faults_t *faults)
@@ -159,8 +166,7 @@ void pose_from_can(can_poses_t *poses, hal_can_t *can, can_faults_t *faults)
             faults->io++;
             return;
         }
-        if (!take_fd(poses, &frame, faults))
-            take_part(poses, &frame, faults);
+        (void)pose_from_frame(poses, &frame, faults);
     }
     faults->overrun++;
 }

@@ -72,6 +72,13 @@ typedef struct {
  */
 void pose_from_can(can_poses_t *poses, hal_can_t *can, can_faults_t *faults);
 
+/**
+ * Take one frame as pose_from_can() takes each: for tools that hear the bus in another way.
+ *
+ * @return Was it one of this viewer's, good or bad?
+ */
+bool pose_from_frame(can_poses_t *poses, const hal_can_frame_t *frame, can_faults_t *faults);
+
 /** @return The sum of all counters but tracking_lost, modulo 2^32: the figure of the status message. */
 uint32_t can_faults_total(const can_faults_t *faults);
 

@@ -4,9 +4,12 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MAX_WORDS = 12 }; /* send, identifier, length and 8 bytes, and one to see that there are too many */
+
+static const double most_seconds = 1e10;
 
 typedef struct {
     const char *text;
@@ -118,4 +121,45 @@ size_t socketcand_text_from_frame(char text[SOCKETCAND_FRAME_LENGTH], const hal_
         at += snprintf(text + at, SOCKETCAND_FRAME_LENGTH - (size_t)at, "%02X", (unsigned)frame->data[i]);
     at += snprintf(text + at, SOCKETCAND_FRAME_LENGTH - (size_t)at, " >");
     return (size_t)at;
+}
+
+/* "23.424242", or with fewer decimals as some servers write it. */
+static bool time_from_word(int64_t *time_us, word_t word)
+{
+    char text[32];
+    char *end;
+    if (word.length >= sizeof text || word.length == 0 || strspn(word.text, "0123456789.") < word.length)
+        return false;
+    memcpy(text, word.text, word.length);
+    text[word.length] = '\0';
+    const double seconds = strtod(text, &end);
+    if (*end != '\0' || seconds > most_seconds)
+        return false;
+    *time_us = (int64_t)(seconds * 1e6 + 0.5);
+    return true;
+}
+
+bool socketcand_frame_from_text(hal_can_frame_t *frame, const char *text, size_t length)
+{
+    word_t words[MAX_WORDS];
+    if (length < 2)
+        return false;
+    const int count = split(words, text + 1, length - 2);
+    hal_can_frame_t read = {.length = 0};
+    if ((count != 3 && count != 4) || !word_is(words[0], "frame") || !hex_from_word(&read.id, words[1], 8) ||
+        read.id > 0x1FFFFFFFU || !time_from_word(&read.time_us, words[2]))
+        return false;
+    read.extended = words[1].length == 8 || read.id > 0x7FFU;
+    const word_t data = count == 4 ? words[3] : (word_t){"", 0};
+    if (data.length > 16 || data.length % 2 != 0)
+        return false;
+    read.length = (uint8_t)(data.length / 2);
+    for (size_t i = 0; i < data.length / 2; i++) {
+        uint32_t byte = 0;
+        if (!hex_from_word(&byte, (word_t){data.text + 2 * i, 2}, 2))
+            return false;
+        read.data[i] = (uint8_t)byte;
+    }
+    *frame = read;
+    return true;
 }

@@ -46,4 +46,14 @@ socketcand_command_t socketcand_command_from_text(const char *text, size_t lengt
  */
 size_t socketcand_text_from_frame(char text[SOCKETCAND_FRAME_LENGTH], const hal_can_frame_t *frame);
 
+/**
+ * Read a frame as a client hears it. A line feed anywhere between its words is allowed.
+ *
+ * @param[out] frame  Written only on success: a classic frame.
+ * @param text        From '<' to '>', both included; need not end with a zero.
+ * @param length      Characters of text.
+ * @return false when it is anything else.
+ */
+bool socketcand_frame_from_text(hal_can_frame_t *frame, const char *text, size_t length);
+
 #endif

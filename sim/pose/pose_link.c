@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens either kind of link; sends over SocketCAN.
+// Opens either kind of link; sends and hears over SocketCAN.
 #include "sim/pose/pose_link.h"
 
 #include <errno.h>
 #include <linux/can.h>
+#include <linux/can/error.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
 #include <poll.h>
@@ -131,6 +132,79 @@ bool pose_link_send(pose_link_t *link, const hal_can_frame_t *frame, int count, 
         if (!send_interface(link, &frame[i], error))
             return false;
     return true;
+}
+
+bool pose_link_listen(pose_link_t *link, char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    link->listening = true;
+    if (link->socketcand)
+        return true;
+    const int on = 1;
+    const struct can_filter everything = {.can_id = 0, .can_mask = 0};
+    const can_err_mask_t errors = CAN_ERR_MASK;
+    if (setsockopt(link->socket, SOL_SOCKET, SO_TIMESTAMP, &on, sizeof on) == 0 &&
+        setsockopt(link->socket, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on) == 0 &&
+        setsockopt(link->socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &errors, sizeof errors) == 0 &&
+        setsockopt(link->socket, SOL_CAN_RAW, CAN_RAW_FILTER, &everything, sizeof everything) == 0)
+        return true;
+    return fail_until_up(error, link->name, strerror(errno), "");
+}
+
+/* The kernel's stamp of a received frame. */
+static int64_t stamp_us(struct msghdr *message)
+{
+    for (struct cmsghdr *part = CMSG_FIRSTHDR(message); part != NULL; part = CMSG_NXTHDR(message, part)) {
+        struct timeval stamp;
+        if (part->cmsg_level != SOL_SOCKET || part->cmsg_type != SO_TIMESTAMP)
+            continue;
+        memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
+        return (int64_t)stamp.tv_sec * 1000000 + stamp.tv_usec;
+    }
+    return 0;
+}
+
+static pose_link_heard_t receive_interface(const pose_link_t *link, hal_can_frame_t *frame, int wait_ms,
+                                           char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    struct canfd_frame raw;
+    union {
+        struct cmsghdr align;
+        char bytes[CMSG_SPACE(sizeof(struct timeval))];
+    } control;
+    struct iovec part = {&raw, sizeof raw};
+    struct pollfd can = {.fd = link->socket, .events = POLLIN};
+    for (;;) {
+        struct msghdr message = {
+            .msg_iov = &part, .msg_iovlen = 1, .msg_control = &control, .msg_controllen = sizeof control};
+        if (poll(&can, 1, wait_ms) <= 0)
+            return POSE_LINK_QUIET;
+        const ssize_t got = recvmsg(link->socket, &message, MSG_DONTWAIT);
+        if (got != (ssize_t)CAN_MTU && got != (ssize_t)CANFD_MTU) {
+            if (got < 0 && (errno == EAGAIN || errno == EINTR))
+                continue;
+            fail_until_up(error, link->name, got < 0 ? strerror(errno) : "a frame of an unknown kind", "");
+            return POSE_LINK_ENDED;
+        }
+        *frame = (hal_can_frame_t){.time_us = stamp_us(&message)};
+        if ((raw.can_id & CAN_ERR_FLAG) != 0)
+            return POSE_LINK_ERROR;
+        if ((raw.can_id & CAN_RTR_FLAG) != 0)
+            continue;
+        frame->extended = (raw.can_id & CAN_EFF_FLAG) != 0;
+        frame->id = raw.can_id & (frame->extended ? CAN_EFF_MASK : CAN_SFF_MASK);
+        frame->fd = got == (ssize_t)CANFD_MTU;
+        frame->bit_rate_switch = frame->fd && (raw.flags & CANFD_BRS) != 0;
+        frame->length = raw.len;
+        memcpy(frame->data, raw.data, raw.len);
+        return POSE_LINK_FRAME;
+    }
+}
+
+pose_link_heard_t pose_link_receive(pose_link_t *link, hal_can_frame_t *frame, int wait_ms,
+                                    char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    return link->socketcand ? pose_link_socketcand_receive(link, frame, wait_ms, error)
+                            : receive_interface(link, frame, wait_ms, error);
 }
 
 void pose_link_close(pose_link_t *link)

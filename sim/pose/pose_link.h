@@ -1,19 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sender's way onto a CAN bus: a SocketCAN interface, or a simulator's socketcand port.
+// A program's way onto a CAN bus: a SocketCAN interface, or a simulator's socketcand port.
 #ifndef SIM_POSE_POSE_LINK_H
 #define SIM_POSE_POSE_LINK_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "hal/hal_can.h"
 
-enum { POSE_LINK_MESSAGE_LENGTH = 256 };
+enum { POSE_LINK_MESSAGE_LENGTH = 256, POSE_LINK_INPUT_BYTES = 8192 };
 
 typedef struct {
     int socket;      /**< an open one */
     bool socketcand; /**< TCP with the socketcand protocol; else SocketCAN */
+    bool listening;  /**< pose_link_listen() was called */
     char name[64];   /**< the bus, for messages */
+    size_t input_length;
+    char input[POSE_LINK_INPUT_BYTES]; /**< socketcand: heard, but not a whole frame yet */
 } pose_link_t;
+
+/** What pose_link_receive() found. */
+typedef enum {
+    POSE_LINK_FRAME,
+    POSE_LINK_QUIET, /**< nothing within the time */
+    POSE_LINK_ERROR, /**< SocketCAN: the controller reports an error on the bus; time_us alone is set */
+    POSE_LINK_ENDED  /**< the link has failed, or the simulation has come to its end */
+} pose_link_heard_t;
 
 /**
  * Can this text name a bus? Nothing is looked up or opened.
@@ -39,6 +51,24 @@ bool pose_link_open(pose_link_t *link, const char *bus, bool fd, char error[POSE
  * @return false when the link has failed; some of the frames may have been sent.
  */
 bool pose_link_send(pose_link_t *link, const hal_can_frame_t *frame, int count, char error[POSE_LINK_MESSAGE_LENGTH]);
+
+/**
+ * Hear the bus from now on. Before this call nothing is kept. What the link itself sends is not heard.
+ *
+ * @return false when the interface refuses.
+ */
+bool pose_link_listen(pose_link_t *link, char error[POSE_LINK_MESSAGE_LENGTH]);
+
+/**
+ * Take the oldest frame heard, after pose_link_listen().
+ *
+ * @param[out] frame  Written for POSE_LINK_FRAME. Its time is the bus's: of the simulation, or the time of day at which
+ *                    the kernel received it. Remote frames are left out.
+ * @param wait_ms     How long to wait for one, 0 or more.
+ * @param[out] error  For POSE_LINK_ENDED: one line without newline.
+ */
+pose_link_heard_t pose_link_receive(pose_link_t *link, hal_can_frame_t *frame, int wait_ms,
+                                    char error[POSE_LINK_MESSAGE_LENGTH]);
 
 /** Send what is still under way, and disconnect. */
 void pose_link_close(pose_link_t *link);

@@ -16,6 +16,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "sim/bus/socketcand_text.h"
+
 enum {
     CONNECT_TRIES = 50,
     CONNECT_PAUSE_MS = 100,
@@ -210,7 +212,7 @@ bool pose_link_socketcand_send(pose_link_t *link, const hal_can_frame_t *frame, 
     size_t length = 0;
     for (int i = 0; i < count; i++)
         length += text_from_frame(text + length, &frame[i]);
-    if (!discard_received(link->socket)) {
+    if (!link->listening && !discard_received(link->socket)) {
         fail(error, link->name, "the server has closed the connection", "has the simulation come to its end?");
         return false;
     }
@@ -218,6 +220,53 @@ bool pose_link_socketcand_send(pose_link_t *link, const hal_can_frame_t *frame, 
         return true;
     fail(error, link->name, strerror(errno), "has the simulation come to its end?");
     return false;
+}
+
+/* The next "< ... >" in the input. @return Its length with what stands before it, or 0; *begin is where it begins. */
+static size_t next_word(const pose_link_t *link, size_t *begin)
+{
+    const char *open = memchr(link->input, '<', link->input_length);
+    if (open == NULL)
+        return 0;
+    *begin = (size_t)(open - link->input);
+    const char *close = memchr(open, '>', link->input_length - *begin);
+    return close == NULL ? 0 : (size_t)(close - link->input) + 1;
+}
+
+/* Take frames from the input until one is whole. */
+static bool take_frame(pose_link_t *link, hal_can_frame_t *frame)
+{
+    size_t begin = 0;
+    for (size_t end = next_word(link, &begin); end > 0; end = next_word(link, &begin)) {
+        const bool is_frame = socketcand_frame_from_text(frame, link->input + begin, end - begin);
+        link->input_length -= end;
+        memmove(link->input, link->input + end, link->input_length);
+        if (is_frame)
+            return true;
+    }
+    return false;
+}
+
+pose_link_heard_t pose_link_socketcand_receive(pose_link_t *link, hal_can_frame_t *frame, int wait_ms,
+                                               char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    for (;;) {
+        if (take_frame(link, frame))
+            return POSE_LINK_FRAME;
+        if (link->input_length == sizeof link->input)
+            link->input_length = 0; /* no frame is as long as that: these are no words of this protocol */
+        struct pollfd server = {.fd = link->socket, .events = POLLIN};
+        if (poll(&server, 1, wait_ms) <= 0)
+            return POSE_LINK_QUIET;
+        const ssize_t got =
+            recv(link->socket, link->input + link->input_length, sizeof link->input - link->input_length, MSG_DONTWAIT);
+        if (got == 0 || (got < 0 && errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)) {
+            fail(error, link->name, "the server has closed the connection", "the simulation has come to its end");
+            return POSE_LINK_ENDED;
+        }
+        if (got > 0)
+            link->input_length += (size_t)got;
+    }
 }
 
 void pose_link_socketcand_finish(pose_link_t *link)

@@ -20,9 +20,13 @@ bool pose_link_socketcand_check(const char *bus, char error[POSE_LINK_MESSAGE_LE
  */
 int pose_link_socketcand_open(const char *bus, char error[POSE_LINK_MESSAGE_LENGTH]);
 
-/** As pose_link_send(), in one piece of text. What the server has sent is thrown away. */
+/** As pose_link_send(), in one piece of text. What the server has sent is thrown away unless the link listens. */
 bool pose_link_socketcand_send(pose_link_t *link, const hal_can_frame_t *frame, int count,
                                char error[POSE_LINK_MESSAGE_LENGTH]);
+
+/** As pose_link_receive(). Words of the server that are no frame are left out. */
+pose_link_heard_t pose_link_socketcand_receive(pose_link_t *link, hal_can_frame_t *frame, int wait_ms,
+                                               char error[POSE_LINK_MESSAGE_LENGTH]);
 
 /** Wait until the server has read everything, for two seconds at most. */
 void pose_link_socketcand_finish(pose_link_t *link);

@@ -106,6 +106,62 @@ static void test_frames_arrive_as_socketcand_text(void **state)
                                       "< send 110 8 0 1 10 ff ab 6 7 8 >< send 7FF 0 >< send 00001234 1 9 >");
 }
 
+/* The made up server says frame 123 once and frame 700 a thousand times, and then nothing. */
+static void test_frames_are_heard_in_order(void **state)
+{
+    (void)state;
+    static server_t server;
+    start_server(&server, "< hi >", "< ok >");
+    pose_link_t link;
+    char error[POSE_LINK_MESSAGE_LENGTH] = "";
+    assert_true(pose_link_open(&link, server.address, false, error));
+    assert_true(pose_link_listen(&link, error));
+    hal_can_frame_t frame;
+    assert_int_equal(pose_link_receive(&link, &frame, 5000, error), POSE_LINK_FRAME);
+    assert_int_equal(frame.id, 0x123);
+    assert_int_equal(frame.time_us, 1500000);
+    assert_int_equal(frame.length, 2);
+    assert_int_equal(frame.data[1], 0x22);
+    for (int i = 0; i < 1000; i++) {
+        assert_int_equal(pose_link_receive(&link, &frame, 5000, error), POSE_LINK_FRAME);
+        assert_int_equal(frame.id, 0x700);
+        assert_memory_equal(frame.data, "\x11\x22\x33\x44\x55\x66\x77\x88", 8);
+        if (i == 500) /* sending must not throw away what was not taken yet */
+            assert_true(pose_link_send(&link, &(hal_can_frame_t){.id = 1}, 1, error));
+    }
+    assert_int_equal(pose_link_receive(&link, &frame, 0, error), POSE_LINK_QUIET);
+    pose_link_close(&link);
+    stop_server(&server);
+}
+
+static void test_what_is_no_frame_is_passed_over(void **state)
+{
+    (void)state;
+    static const char said[] =
+        "< frame 7FF 1.000000 >\n< echo >< frame 800 2.5 0 >garbage< frame 1 x 00 >"
+        "< frame 1 1.5 00112233445566778899 >< frame 00000001 3.25 aB >< frame 20000000 1.5 00 >";
+    int ends[2];
+    assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
+    static pose_link_t link;
+    link = (pose_link_t){.socket = ends[0], .socketcand = true, .listening = true, .name = "made up"};
+    char error[POSE_LINK_MESSAGE_LENGTH] = "";
+    static const char letters[POSE_LINK_INPUT_BYTES + 100] = "<";
+    assert_int_equal(write(ends[1], letters, sizeof letters), sizeof letters);
+    assert_int_equal(write(ends[1], "> ", 2), 2);
+    assert_int_equal(write(ends[1], said, sizeof said - 1), sizeof said - 1);
+    close(ends[1]);
+    hal_can_frame_t frame;
+    assert_int_equal(pose_link_receive(&link, &frame, 1000, error), POSE_LINK_FRAME);
+    assert_int_equal(frame.id, 0x7FF);
+    assert_int_equal(frame.length, 0);
+    assert_int_equal(pose_link_receive(&link, &frame, 1000, error), POSE_LINK_FRAME);
+    assert_true(frame.id == 1 && frame.extended && frame.time_us == 3250000);
+    assert_int_equal(frame.data[0], 0xAB);
+    assert_int_equal(pose_link_receive(&link, &frame, 1000, error), POSE_LINK_ENDED);
+    assert_non_null(strstr(error, "made up"));
+    close(ends[0]);
+}
+
 static const pose_list_entry_t WALK[] = {
     {.time_us = 5000000, .pose = {.eye_nm = {1000000, 0, -2000000}, .quaternion_q30 = {1 << 30, 0, 0, 0}}},
     {.time_us = 5000000, .pose = {.eye_nm = {2000000, 0, -2000000}, .quaternion_q30 = {0, 1 << 30, 0, 0}}},
@@ -289,6 +345,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_frames_arrive_as_socketcand_text),
+        cmocka_unit_test(test_frames_are_heard_in_order),
+        cmocka_unit_test(test_what_is_no_frame_is_passed_over),
         cmocka_unit_test(test_a_list_arrives_pose_by_pose_with_rising_times),
         cmocka_unit_test(test_a_stop_ends_a_list_before_its_end),
         cmocka_unit_test(test_poses_that_do_not_fit_are_found_before_sending),

@@ -145,7 +145,7 @@ test_interrupted_send() {
         started="$started $id"
         wait_for_handler "$id" && sleep 0.3 && kill -$signal "$id"
         wait "$id"
-        [ $? -eq 1 ] && grep -q '^wallwarp-pose: interrupted after [0-2] of 3 poses$' "$scratch/stderr"
+        [ $? -eq 1 ] && grep -q '^wallwarp-pose send: interrupted after [0-2] of 3 poses$' "$scratch/stderr"
         check "a sender that is ended by SIG$signal says so, and has the status 1" $?
     done
     kill -INT "$room"

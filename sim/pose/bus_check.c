@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Is this bus healthy? One line of judgement for each thing that was watched.
+#include "sim/pose/bus_check.h"
+
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include "firmware/projector.h"
+#include "sim/run/run_record.h"
+
+enum { LEAST_POSES_PER_S = 20, MOST_LOAD_PPM = 700000, US_PER_S = 1000000 };
+enum { NAMES_LENGTH = 256 };
+enum { HEARTBEAT_GAP_US = 3 * CAN_HEARTBEAT_PERIOD_MS * 1000 / 2 };
+
+/* Where the judgement goes, and how many were bad. */
+typedef struct {
+    FILE *file;
+    int bad;
+} judge_t;
+
+static void say(judge_t *judge, bool good, const char *format, ...) __attribute__((format(printf, 3, 4)));
+static void say(judge_t *judge, bool good, const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    fputs(good ? "ok   " : "BAD  ", judge->file);
+    vfprintf(judge->file, format, values);
+    fputc('\n', judge->file);
+    va_end(values);
+    judge->bad += good ? 0 : 1;
+}
+
+/* A count that should be 0: said only when it is not. */
+static void say_count(judge_t *judge, int viewer, uint32_t count, const char *what)
+{
+    if (count > 0)
+        say(judge, false, "viewer %d: %" PRIu32 " %s", viewer, count, what);
+}
+
+static void check_faults(judge_t *judge, int number, const can_faults_t *faults)
+{
+    say_count(judge, number, faults->counter_lost, "poses lost on the way: is the bus overloaded or its wiring bad?");
+    say_count(judge, number, faults->crc, "frames with a wrong CRC: see wallwarp.dbc for polynomial and data ids");
+    say_count(judge, number, faults->length, "frames of a wrong length or kind: FD has 32 bytes, classic ones 8");
+    say_count(judge, number, faults->counter_invalid, "frames with counter 15: a set's counter is 0 to 14");
+    say_count(judge, number, faults->duplicate, "repeated poses: is a second sender on the bus?");
+    say_count(judge, number, faults->stale, "poses older than the newest: is a second sender on the bus?");
+    say_count(judge, number, faults->sender_restart,
+              "jumps of the counter: has the sender started anew, or are there two?");
+    say_count(judge, number, faults->incomplete_set, "incomplete sets: three frames within 10 ms, all of one counter");
+    say_count(judge, number, faults->bad_pose,
+              "poses that cannot be: position within 1000 m and a quaternion of length 1 expected");
+    say_count(judge, number, faults->tracking_lost, "times the tracker did not see the viewer");
+}
+
+static void check_viewer(judge_t *judge, int number, const bus_watch_viewer_t *viewer)
+{
+    const int before = judge->bad;
+    const double mean_us = bus_watch_mean_us(&viewer->poses), rate = mean_us > 0 ? US_PER_S / mean_us : 0;
+    if (viewer->fd && viewer->set)
+        say(judge, false, "viewer %d: comes as FD frames and as classic sets; send one of them", number);
+    if (rate < LEAST_POSES_PER_S)
+        say(judge, false, "viewer %d: %.1f poses a second; send at least %d", number, rate, LEAST_POSES_PER_S);
+    if (viewer->poses.longest_us > PROJECTOR_HOLD_AFTER_US)
+        say(judge, false, "viewer %d: a gap of %" PRId64 " ms; boards hold the last pose after %d ms", number,
+            viewer->poses.longest_us / 1000, PROJECTOR_HOLD_AFTER_US / 1000);
+    if (viewer->captured_back > 0)
+        say(judge, false, "viewer %d: capture times went back %" PRId64 " times; they count up, in us", number,
+            viewer->captured_back);
+    check_faults(judge, number, &viewer->faults);
+    if (judge->bad == before)
+        say(judge, true, "viewer %d: %.1f poses a second, jitter %.3f ms, delay within %.3f ms", number, rate,
+            bus_watch_jitter_us(&viewer->poses) / 1e3, (double)(viewer->most_us - viewer->least_us) / 1e3);
+}
+
+/* "deadline, camera" */
+static void name_faults(char names[NAMES_LENGTH], uint32_t flags)
+{
+    static const char *const known[] = {"bus", "bus-off", "camera", "display", "GPIO", "watchdog", "deadline"};
+    names[0] = '\0';
+    for (size_t bit = 0; bit < 16; bit++) {
+        const size_t used = strlen(names);
+        if ((flags >> bit & 1U) != 0)
+            snprintf(names + used, NAMES_LENGTH - used, "%s%s", used > 0 ? ", " : "",
+                     bit < sizeof known / sizeof known[0] ? known[bit] : "one of a newer firmware");
+    }
+}
+
+static void check_board(judge_t *judge, int node, const bus_watch_board_t *board, int64_t end_us)
+{
+    const int before = judge->bad;
+    if (board->heartbeats.count == 0) {
+        say(judge, false, "board %d: reports but no heartbeat; is its firmware of this version?", node);
+        return;
+    }
+    const int64_t silent_us = end_us - board->heartbeats.last_us;
+    const int64_t gap_us = silent_us > board->heartbeats.longest_us ? silent_us : board->heartbeats.longest_us;
+    if (gap_us > HEARTBEAT_GAP_US)
+        say(judge, false, "board %d: no heartbeat for %" PRId64 " ms, expected one every %d; power, cable, bus-off?",
+            node, gap_us / 1000, CAN_HEARTBEAT_PERIOD_MS);
+    if (board->restarts > 0)
+        say(judge, false, "board %d: started anew %" PRId64 " times; see its log", node, board->restarts);
+    if (board->heartbeat.state != CAN_BOARD_RUNNING)
+        say(judge, false, "board %d: is %s, expected running", node, run_state_name(board->heartbeat.state));
+    if (board->heartbeat.fault_flags != 0) {
+        char names[NAMES_LENGTH];
+        name_faults(names, board->heartbeat.fault_flags);
+        say(judge, false, "board %d: reports a fault: %s", node, names);
+    }
+    if (judge->bad == before)
+        say(judge, true, "board %d: running, up for %" PRIu32 " s", node, board->heartbeat.uptime_s);
+}
+
+static void check_bus(judge_t *judge, const bus_watch_t *watch)
+{
+    const bool light = watch->worst_load_ppm <= MOST_LOAD_PPM;
+    say(judge, light, "load: %.1f %% in the fullest second%s", watch->worst_load_ppm / 1e4,
+        light ? "" : "; above 70 % poses come late: lower the rate, or raise the bit rate");
+    if (watch->errors > 0)
+        say(judge, false, "%" PRId64 " bus errors; termination, bit rate, cable?", watch->errors);
+    if (watch->damaged > 0)
+        say(judge, false, "%" PRId64 " damaged reports of boards; do two have one node number?", watch->damaged);
+    if (watch->unknown > 0)
+        say(judge, true, "%" PRId64 " frames that are none of wallwarp.dbc's", watch->unknown);
+}
+
+int bus_check_print(FILE *file, const bus_watch_t *watch)
+{
+    judge_t judge = {.file = file};
+    if (watch->frames == 0) {
+        say(&judge, false, "no frame: is anything sending, and is the bit rate right?");
+        return judge.bad;
+    }
+    check_bus(&judge, watch);
+    int viewers = 0, boards = 0;
+    for (int v = 0; v < CAN_VIEWERS; v++) {
+        if (!watch->viewer[v].fd && !watch->viewer[v].set)
+            continue;
+        check_viewer(&judge, v, &watch->viewer[v]);
+        viewers++;
+    }
+    for (int node = 1; node <= CAN_MAX_NODE; node++) {
+        const bus_watch_board_t *board = &watch->board[node];
+        if (board->heartbeats.count == 0 && !board->has_status && !board->has_quality)
+            continue;
+        check_board(&judge, node, board, watch->last_us);
+        boards++;
+    }
+    if (viewers == 0)
+        say(&judge, false, "no poses: see `wallwarp-pose send --help`");
+    if (boards == 0)
+        say(&judge, false, "no board reports; are they powered, and are there two nodes or more on the bus?");
+    return judge.bad;
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a watched bus looks like, as a table for people.
+#include "sim/pose/bus_table.h"
+
+#include <inttypes.h>
+
+#include "sim/run/run_record.h"
+#include "warp_fixed/method.h"
+
+static const double us_per_s = 1e6, nm_per_mm = 1e6;
+
+static void print_bus(FILE *file, const char *bus, const bus_watch_t *watch)
+{
+    const double seconds = watch->frames > 0 ? (double)(watch->last_us - watch->first_us) / us_per_s : 0;
+    fprintf(file, "%s: %.1f s, %" PRId64 " frames, %" PRId64 " damaged, %" PRId64 " unknown, %" PRId64 " errors, load ",
+            bus, seconds, watch->frames, watch->damaged, watch->unknown, watch->errors);
+    if (watch->load_ppm < 0)
+        fprintf(file, "- %%\n");
+    else
+        fprintf(file, "%.1f %% (worst %.1f %%)\n", watch->load_ppm / 1e4, watch->worst_load_ppm / 1e4);
+}
+
+static const char *quality_name(can_pose_quality_t quality)
+{
+    return quality == CAN_POSE_PREDICTED ? "predicted" : "tracked";
+}
+
+static void print_viewer(FILE *file, int number, const bus_watch_viewer_t *viewer)
+{
+    const can_faults_t *faults = &viewer->faults;
+    const double mean_us = bus_watch_mean_us(&viewer->poses);
+    fprintf(file, "%6d  %-8s %6.1f %9.3f %6" PRIu32 " %6" PRIu32 " %6" PRIu32 " %6" PRIu32 " %9" PRIu32 "  ", number,
+            viewer->fd && viewer->set ? "fd+set"
+            : viewer->fd              ? "fd"
+                                      : "set",
+            mean_us > 0 ? us_per_s / mean_us : 0, bus_watch_jitter_us(&viewer->poses) / 1e3, faults->counter_lost,
+            faults->crc + faults->length, faults->duplicate + faults->stale,
+            faults->bad_pose + faults->counter_invalid + faults->incomplete_set, faults->tracking_lost);
+    const can_pose_t *pose = &viewer->receiver.newest;
+    if (viewer->receiver.any)
+        fprintf(file, "%-9s %10.1f %10.1f %10.1f\n", quality_name(pose->quality),
+                (double)pose->pose.eye_nm[0] / nm_per_mm, (double)pose->pose.eye_nm[1] / nm_per_mm,
+                (double)pose->pose.eye_nm[2] / nm_per_mm);
+    else
+        fprintf(file, "none yet\n");
+}
+
+static const char *method_name(const can_quality_t *quality)
+{
+    for (int m = 0; m < WARP_METHODS; m++)
+        if (warp_methods[m].filter == quality->filter && warp_methods[m].resampler == quality->resampler)
+            return warp_methods[m].name;
+    return "unknown";
+}
+
+static void print_board(FILE *file, int node, const bus_watch_board_t *board)
+{
+    const can_heartbeat_t *heartbeat = &board->heartbeat;
+    fprintf(file, "%6d  ", node);
+    if (board->heartbeats.count > 0)
+        fprintf(file, "%-8s %8" PRIu32 " %6" PRIu32 "  0x%03" PRIX32 " ", run_state_name(heartbeat->state),
+                heartbeat->uptime_s, heartbeat->frame_number, heartbeat->fault_flags);
+    else
+        fprintf(file, "%-8s %8s %6s  %5s ", "-", "-", "-", "-");
+    if (board->has_status)
+        fprintf(file, "%5u %7" PRIu32 " %8.3f %8.1f %10" PRIu32 "  ", (unsigned)board->status.pose_counter,
+                board->status.pose_age_ms, board->status.step_q8 / 256.0, board->status.warp_time_us / 1e3,
+                board->status.can_faults);
+    else
+        fprintf(file, "%5s %7s %8s %8s %10s  ", "-", "-", "-", "-", "-");
+    if (board->has_quality)
+        fprintf(file, "%s, step %u\n", method_name(&board->quality), (unsigned)board->quality.step);
+    else
+        fprintf(file, "-\n");
+}
+
+void bus_table_print(FILE *file, const char *bus, const bus_watch_t *watch)
+{
+    print_bus(file, bus, watch);
+    fprintf(file, "viewer  message  rate/s jitter_ms   lost    crc repeat    bad not_seen  quality         x_mm"
+                  "       y_mm       z_mm\n");
+    for (int v = 0; v < CAN_VIEWERS; v++)
+        if (watch->viewer[v].fd || watch->viewer[v].set)
+            print_viewer(file, v, &watch->viewer[v]);
+    fprintf(file, " board  state    uptime_s  frame faults  pose  age_ms        k  warp_ms bus_faults  method\n");
+    for (int node = 1; node <= CAN_MAX_NODE; node++) {
+        const bus_watch_board_t *board = &watch->board[node];
+        if (board->heartbeats.count > 0 || board->has_status || board->has_quality)
+            print_board(file, node, board);
+    }
+}

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sorts frames by what they say, with the firmware's own decoders, and keeps what people ask about.
+#include "sim/pose/bus_watch.h"
+
+#include <math.h>
+
+#include "sim/bus/sim_can_bits.h"
+
+enum { MILLION = 1000000 };
+
+void bus_watch_init(bus_watch_t *watch, int32_t bitrate, int32_t data_bitrate)
+{
+    *watch = (bus_watch_t){.bitrate = bitrate, .data_bitrate = data_bitrate, .load_ppm = -1, .worst_load_ppm = -1};
+    for (uint8_t v = 0; v < CAN_VIEWERS; v++)
+        watch->viewer[v].receiver.viewer = v;
+}
+
+static void note_event(bus_watch_rhythm_t *rhythm, int64_t time_us)
+{
+    if (rhythm->count > 0) {
+        const int64_t interval_us = time_us - rhythm->last_us;
+        rhythm->sum_us += (double)interval_us;
+        rhythm->sum_of_squares += (double)interval_us * (double)interval_us;
+        if (interval_us > rhythm->longest_us)
+            rhythm->longest_us = interval_us;
+    }
+    rhythm->count++;
+    rhythm->last_us = time_us;
+}
+
+double bus_watch_mean_us(const bus_watch_rhythm_t *rhythm)
+{
+    return rhythm->count < 2 ? 0 : rhythm->sum_us / (double)(rhythm->count - 1);
+}
+
+double bus_watch_jitter_us(const bus_watch_rhythm_t *rhythm)
+{
+    if (rhythm->count < 2)
+        return 0;
+    const double mean = bus_watch_mean_us(rhythm);
+    return sqrt(fmax(rhythm->sum_of_squares / (double)(rhythm->count - 1) - mean * mean, 0));
+}
+
+/* Whole windows that have gone by become the load; empty ones count too. */
+static void note_load(bus_watch_t *watch, const hal_can_frame_t *frame)
+{
+    const sim_can_bits_t bits = sim_can_bits(frame);
+    const double busy_us =
+        (double)bits.arbitration * MILLION / watch->bitrate + (double)bits.data * MILLION / watch->data_bitrate;
+    const int64_t windows = (frame->time_us - watch->window_start_us) / BUS_WATCH_WINDOW_US;
+    if (windows > 0) {
+        watch->load_ppm = windows > 1 ? 0 : (int32_t)(watch->window_busy_us * MILLION / BUS_WATCH_WINDOW_US);
+        const int32_t full_ppm = (int32_t)(watch->window_busy_us * MILLION / BUS_WATCH_WINDOW_US);
+        watch->worst_load_ppm = full_ppm > watch->worst_load_ppm ? full_ppm : watch->worst_load_ppm;
+        watch->window_start_us += windows * BUS_WATCH_WINDOW_US;
+        watch->window_busy_us = 0;
+    }
+    watch->busy_us += busy_us;
+    watch->window_busy_us += busy_us;
+}
+
+/* The tracker's time goes on from the last pose by what is left of the wrap, and back by less than half of it. */
+static void note_capture(bus_watch_viewer_t *viewer, bool fd)
+{
+    const int64_t wrap_us = (int64_t)(fd ? CAN_POSE_FD_WRAP_US : CAN_POSE_SET_WRAP_US),
+                  now_us = viewer->receiver.received_us, wrapped_us = (int64_t)viewer->receiver.newest.capture_time_us;
+    if (viewer->poses.count == 1 || (fd ? viewer->set : viewer->fd)) { /* the two messages' times do not compare */
+        viewer->capture_us = wrapped_us;
+        viewer->least_us = viewer->most_us = now_us - wrapped_us;
+        return;
+    }
+    int64_t forward_us = (wrapped_us - viewer->capture_us) % wrap_us;
+    if (forward_us < 0)
+        forward_us += wrap_us;
+    if (forward_us >= wrap_us / 2) {
+        forward_us -= wrap_us;
+        viewer->captured_back++;
+    }
+    viewer->capture_us += forward_us;
+    const int64_t delay_us = now_us - viewer->capture_us;
+    viewer->least_us = delay_us < viewer->least_us ? delay_us : viewer->least_us;
+    viewer->most_us = delay_us > viewer->most_us ? delay_us : viewer->most_us;
+}
+
+static bool take_pose(bus_watch_viewer_t *viewer, const hal_can_frame_t *frame)
+{
+    /* A good pose leaves its time here, and all times of frames are later than this one. */
+    viewer->receiver.received_us = INT64_MIN;
+    if (!pose_from_frame(&viewer->receiver, frame, &viewer->faults))
+        return false;
+    const bool fd = frame->id < CAN_ID_POSE_SET;
+    viewer->fd |= fd;
+    viewer->set |= !fd;
+    if (viewer->receiver.received_us != INT64_MIN) {
+        note_event(&viewer->poses, frame->time_us);
+        note_capture(viewer, fd);
+    }
+    return true;
+}
+
+static void take_heartbeat(bus_watch_board_t *board, const can_heartbeat_t *heartbeat, int64_t time_us)
+{
+    if (board->heartbeats.count > 0 && heartbeat->uptime_s < board->heartbeat.uptime_s)
+        board->restarts++;
+    board->heartbeat = *heartbeat;
+    note_event(&board->heartbeats, time_us);
+}
+
+/* @return What the decoders of the boards' reports found. */
+static can_check_t take_report(bus_watch_t *watch, const hal_can_frame_t *frame)
+{
+    can_heartbeat_t heartbeat;
+    can_check_t check = can_heartbeat_decode(&heartbeat, frame);
+    if (check == CAN_CHECK_OK)
+        take_heartbeat(&watch->board[heartbeat.node], &heartbeat, frame->time_us);
+    can_status_t status;
+    if (check == CAN_CHECK_OTHER && (check = can_status_decode(&status, frame)) == CAN_CHECK_OK) {
+        watch->board[status.node].status = status;
+        watch->board[status.node].has_status = true;
+    }
+    can_quality_t quality;
+    if (check == CAN_CHECK_OTHER && (check = can_quality_decode(&quality, frame)) == CAN_CHECK_OK) {
+        watch->board[quality.node].quality = quality;
+        watch->board[quality.node].has_quality = true;
+    }
+    can_stage_t stage;
+    return check == CAN_CHECK_OTHER ? can_stage_decode(&stage, frame) : check;
+}
+
+void bus_watch_take(bus_watch_t *watch, const hal_can_frame_t *frame)
+{
+    if (watch->frames == 0)
+        watch->first_us = watch->window_start_us = frame->time_us;
+    watch->frames++;
+    watch->last_us = frame->time_us;
+    note_load(watch, frame);
+    for (int v = 0; v < CAN_VIEWERS; v++)
+        if (take_pose(&watch->viewer[v], frame))
+            return;
+    const can_check_t check = take_report(watch, frame);
+    watch->unknown += check == CAN_CHECK_OTHER;
+    watch->damaged += check != CAN_CHECK_OTHER && check != CAN_CHECK_OK;
+}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values of options that several commands of wallwarp-pose have; a bad one ends the program with status 2.
+#ifndef SIM_POSE_COMMAND_OPTIONS_H
+#define SIM_POSE_COMMAND_OPTIONS_H
+
+#include <argp.h>
+#include <stdint.h>
+
+static const char command_bus_help[] =
+    "A SocketCAN interface such as can0, or HOST:PORT of a simulator (wallwarp-sim run --bus PORT)";
+
+/** @return The text, when it can name a bus. */
+const char *command_bus(struct argp_state *state, const char *text);
+
+/** @return A decimal number from least to most. @param option  For the message: "--speed". */
+double command_number(struct argp_state *state, const char *option, const char *text, double least, double most);
+
+/** @return Seconds as us: 0.001 to 10^6 s. */
+int64_t command_seconds_us(struct argp_state *state, const char *option, const char *text);
+
+#endif
