@@ -145,6 +145,21 @@ static void test_load_is_the_frames_own(void **state)
     play(&s);
     assert_in_range(s.watch.load_ppm, 159800, 194400);
     assert_in_range(s.watch.worst_load_ppm, s.watch.load_ppm, 194400);
+    send(&s, (hal_can_frame_t){.id = 1}, pose_time_us(LENGTH_S * RATE) + 2000000);
+    assert_int_equal(s.watch.load_ppm, 0);
+}
+
+/* 4000 frames of 111 to 135 bits a second are 89 to 108 % of 500 kbit/s. */
+static void test_full_bus_is_said(void **state)
+{
+    (void)state;
+    scene_t s = scene();
+    play(&s);
+    for (int i = 0; i < 8000; i++)
+        send(&s, (hal_can_frame_t){.id = 1, .length = 8, .data = {0x55}}, pose_time_us(LENGTH_S * RATE) + 250 * i);
+    char *text = judged(&s, 2); /* and the board was silent */
+    assert_non_null(strstr(text, "above 70 % poses come late"));
+    free(text);
 }
 
 static void test_each_fault_is_said(void **state)
@@ -239,9 +254,13 @@ static void test_both_messages_of_one_viewer_are_said(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_healthy_bus),           cmocka_unit_test(test_load_is_the_frames_own),
-        cmocka_unit_test(test_each_fault_is_said),    cmocka_unit_test(test_each_fault_of_a_board_is_said),
-        cmocka_unit_test(test_silence_and_strangers), cmocka_unit_test(test_both_messages_of_one_viewer_are_said),
+        cmocka_unit_test(test_healthy_bus),
+        cmocka_unit_test(test_load_is_the_frames_own),
+        cmocka_unit_test(test_full_bus_is_said),
+        cmocka_unit_test(test_each_fault_is_said),
+        cmocka_unit_test(test_each_fault_of_a_board_is_said),
+        cmocka_unit_test(test_silence_and_strangers),
+        cmocka_unit_test(test_both_messages_of_one_viewer_are_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
