@@ -172,6 +172,30 @@ static void test_an_end_that_does_not_go_on(void **state)
     assert_int_equal(link.faults.timeout, 3);
 }
 
+/* Ten waits are allowed before each block, and a flow control that is cut off is none. */
+static void test_waits_are_counted_by_block(void **state)
+{
+    (void)state;
+    isotp_t link;
+    hal_can_frame_t frame;
+    isotp_init(&link, TOOL_ID, BOARD_ID);
+    assert_true(isotp_send(&link, (const uint8_t *)"abcdefghijklmnopqrst", 20, 0));
+    for (int block = 0; block < 2; block++) {
+        assert_true(isotp_next(&link, &frame, 0));
+        for (int i = 0; i < ISOTP_MOST_WAITS; i++)
+            take(&link, "\x31\x00\x00\xCC\xCC\xCC\xCC\xCC", 0);
+        frame = (hal_can_frame_t){.id = TOOL_ID, .length = 2, .data = {0x30, 0}};
+        assert_true(isotp_take(&link, &frame, 0));
+        assert_int_equal(link.faults.invalid, block + 1);
+        assert_no_next(&link, 0);
+        take(&link, "\x30\x01\x00\xCC\xCC\xCC\xCC\xCC", 0);
+    }
+    assert_next(&link, 0, BOARD_ID,
+                "\x22"
+                "nopqrst");
+    assert_false(isotp_sending(&link));
+}
+
 static void test_what_does_not_fit_is_refused(void **state)
 {
     (void)state;
@@ -309,6 +333,7 @@ int main(void)
         cmocka_unit_test(test_segmented_message),
         cmocka_unit_test(test_gap_is_kept),
         cmocka_unit_test(test_an_end_that_does_not_go_on),
+        cmocka_unit_test(test_waits_are_counted_by_block),
         cmocka_unit_test(test_what_does_not_fit_is_refused),
         cmocka_unit_test(test_bad_frames_are_counted),
         cmocka_unit_test(test_a_message_that_is_not_taken_stays),
