@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Requests of an operator, as bytes.
+#include "firmware/command.h"
+
+#include <string.h>
+
+#include "firmware/byte_order.h"
+
+static const char reboot_text[] = "reboot";
+enum { REBOOT_LENGTH = sizeof reboot_text - 1, NUMBER_LENGTH = 4 };
+
+static int put_text(uint8_t *bytes, const char *text)
+{
+    const size_t length = strlen(text);
+    memcpy(bytes, text, length);
+    return (int)length;
+}
+
+static int put_number(uint8_t *bytes, uint32_t number)
+{
+    put_u32(bytes, number);
+    return NUMBER_LENGTH;
+}
+
+int command_encode(uint8_t bytes[COMMAND_MAX_BYTES], const command_t *command)
+{
+    uint8_t *values = bytes + 1;
+    bytes[0] = (uint8_t)command->kind;
+    switch (command->kind) {
+    case COMMAND_METHOD:
+        return 1 + put_text(values, command->method == NULL ? "" : command->method->name);
+    case COMMAND_FREEZE:
+        values[0] = command->freeze;
+        return 2;
+    case COMMAND_PATTERN:
+        values[0] = (uint8_t)command->pattern;
+        return 2;
+    case COMMAND_LATENCY:
+        return 1 + put_number(values, command->latency_us);
+    case COMMAND_REBOOT:
+        return 1 + put_text(values, reboot_text);
+    case COMMAND_LOG:
+        return 1 + put_number(values, command->first_event);
+    case COMMAND_HELLO:
+        break;
+    }
+    return 1;
+}
+
+static command_result_t read_method(const warp_method_t **method, const uint8_t *bytes, int length)
+{
+    char name[COMMAND_MAX_BYTES] = "";
+    memcpy(name, bytes, (size_t)length);
+    *method = warp_method_from_name(name);
+    const bool whole = strlen(name) == (size_t)length; /* no zero in it */
+    return whole && (*method != NULL || length == 0) ? COMMAND_OK : COMMAND_BAD_VALUE;
+}
+
+static command_result_t read_small(uint8_t *value, const uint8_t *bytes, int length, int limit)
+{
+    if (length != 1 || bytes[0] >= limit)
+        return COMMAND_BAD_VALUE;
+    *value = bytes[0];
+    return COMMAND_OK;
+}
+
+static command_result_t read_number(uint32_t *value, const uint8_t *bytes, int length, uint32_t most)
+{
+    if (length != NUMBER_LENGTH || get_u32(bytes) > most)
+        return COMMAND_BAD_VALUE;
+    *value = get_u32(bytes);
+    return COMMAND_OK;
+}
+
+static command_result_t read_values(command_t *command, const uint8_t *values, int length)
+{
+    uint8_t small = 0;
+    command_result_t result = COMMAND_UNKNOWN;
+    switch (command->kind) {
+    case COMMAND_HELLO:
+        return length == 0 ? COMMAND_OK : COMMAND_BAD_VALUE;
+    case COMMAND_METHOD:
+        return read_method(&command->method, values, length);
+    case COMMAND_FREEZE:
+        result = read_small(&small, values, length, 2);
+        command->freeze = small == 1;
+        return result;
+    case COMMAND_PATTERN:
+        result = read_small(&small, values, length, COMMAND_PATTERNS);
+        command->pattern = (command_pattern_t)small;
+        return result;
+    case COMMAND_LATENCY:
+        return read_number(&command->latency_us, values, length, COMMAND_MOST_LATENCY_US);
+    case COMMAND_REBOOT:
+        return length == REBOOT_LENGTH && memcmp(values, reboot_text, REBOOT_LENGTH) == 0 ? COMMAND_OK
+                                                                                          : COMMAND_BAD_VALUE;
+    case COMMAND_LOG:
+        return read_number(&command->first_event, values, length, UINT32_MAX);
+    }
+    return result;
+}
+
+command_result_t command_decode(command_t *command, const uint8_t *bytes, int length)
+{
+    if (length < 1 || length > COMMAND_MAX_BYTES)
+        return COMMAND_BAD_VALUE;
+    command_t read = {.kind = (command_kind_t)bytes[0]};
+    const command_result_t result = read_values(&read, bytes + 1, length - 1);
+    if (result == COMMAND_OK)
+        *command = read;
+    return result;
+}

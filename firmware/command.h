@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an operator may tell a board over the bus: requests and replies as bytes of an ISO-TP message.
+//
+// A request is a command_kind_t and what belongs to it; a reply is the same number plus 128, a command_result_t, and,
+// when that is COMMAND_OK, what was asked for. Numbers have their low byte first.
+//
+// | request                            | reply, after the result                                        |
+// |------------------------------------|----------------------------------------------------------------|
+// | 1 hello                            | node (1), events since the start (4), version as text          |
+// | 2 method: name as text, "" = room's |                                                                |
+// | 3 freeze: 1 or 0                   |                                                                |
+// | 4 pattern: command_pattern_t       |                                                                |
+// | 5 latency: us (4), 0 = least       |                                                                |
+// | 6 reboot: the text "reboot"        |                                                                |
+// | 7 log: first event (4)             | first event (4), then EVENT_BYTES for each, up to 50           |
+#ifndef FIRMWARE_COMMAND_H
+#define FIRMWARE_COMMAND_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "warp_fixed/method.h"
+
+enum {
+    CAN_ID_COMMAND = 0x600, /**< + node: ISO-TP frames to a board */
+    CAN_ID_REPLY = 0x640,   /**< + node: and from it */
+    COMMAND_MAX_BYTES = 64, /**< of a request */
+    COMMAND_REPLY_BYTES = 512,
+    COMMAND_MOST_EVENTS = 50,
+    COMMAND_MOST_LATENCY_US = 200000
+};
+
+typedef enum {
+    COMMAND_HELLO = 1,
+    COMMAND_METHOD = 2,
+    COMMAND_FREEZE = 3,
+    COMMAND_PATTERN = 4,
+    COMMAND_LATENCY = 5,
+    COMMAND_REBOOT = 6,
+    COMMAND_LOG = 7
+} command_kind_t;
+
+typedef enum {
+    COMMAND_OK = 0,
+    COMMAND_UNKNOWN = 1,   /**< no such command */
+    COMMAND_BAD_VALUE = 2, /**< of a wrong length, or a value that is not a legal one */
+    COMMAND_REFUSED = 3,   /**< not allowed: its authentication is missing or wrong */
+    COMMAND_IMPOSSIBLE = 4 /**< this board cannot do it now */
+} command_result_t;
+
+/** Pictures for setting a projector up. */
+typedef enum {
+    COMMAND_PATTERN_NONE = 0, /**< back to the corrected picture */
+    COMMAND_PATTERN_GRID = 1, /**< border, middle lines, squares of an eighth of the height */
+    COMMAND_PATTERN_WHITE = 2,
+    COMMAND_PATTERN_BLACK = 3,
+    COMMAND_PATTERNS
+} command_pattern_t;
+
+typedef struct {
+    command_kind_t kind;
+    const warp_method_t *method; /**< COMMAND_METHOD: NULL is the room's own */
+    bool freeze;
+    command_pattern_t pattern;
+    uint32_t latency_us; /**< up to COMMAND_MOST_LATENCY_US */
+    uint32_t first_event;
+} command_t;
+
+/** @return Bytes of the request. */
+int command_encode(uint8_t bytes[COMMAND_MAX_BYTES], const command_t *command);
+
+/**
+ * Read a request.
+ *
+ * @param[out] command  Written only for COMMAND_OK.
+ * @return COMMAND_OK, COMMAND_UNKNOWN or COMMAND_BAD_VALUE.
+ */
+command_result_t command_decode(command_t *command, const uint8_t *bytes, int length);
+
+#endif
