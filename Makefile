@@ -103,6 +103,12 @@ $(BUILD)/wallwarp-%: $(BUILD)/obj/sim/wallwarp_%.c.o $(LIBS)
 $(BUILD)/tests/%: $(BUILD)/obj/tests/%.c.o $(BUILD)/libsupport.a $(LIBS)
 	$(call link,-lcmocka)
 
+# The example for senders is built as its users build it, with every warning that they may have on.
+$(BUILD)/tests/sim/pose/send_pose: sim/pose/examples/send_pose.c
+	@mkdir -p $(@D)
+	$(Q)$(CC) -std=c11 $(OPT) -Wall -Wextra -Werror -Wpedantic -o $@ $< -lm
+$(BUILD)/tests/sim/pose/test_send_pose: $(BUILD)/tests/sim/pose/send_pose
+
 # --- tests -----------------------------------------------------------------------------------------------------------
 
 # The same bytes from other compilers, optimisations and CPUs: each variant builds warp_fixed and golden_hashes anew.
