@@ -109,6 +109,8 @@ $(BUILD)/tests/sim/pose/send_pose: sim/pose/examples/send_pose.c
 	$(Q)$(CC) -std=c11 $(OPT) -Wall -Wextra -Werror -Wpedantic -o $@ $< -lm
 $(BUILD)/tests/sim/pose/test_send_pose: $(BUILD)/tests/sim/pose/send_pose
 
+$(BUILD)/tests/firmware/test_frame_tag_jpeg: LDLIBS += -ljpeg
+
 # --- tests -----------------------------------------------------------------------------------------------------------
 
 # The same bytes from other compilers, optimisations and CPUs: each variant builds warp_fixed and golden_hashes anew.
@@ -233,7 +235,7 @@ $(BUILD)/tests/fuzz/%: $(BUILD)/obj/tests/fuzz/%.c.o $(call objects,$(filter-out
 	$(call link)
 
 .PHONY: fuzz run-fuzz
-fuzz: setup-test ## Search for inputs that break the readers and the warp, SECONDS=20 for each of eight targets
+fuzz: setup-test ## Search for inputs that break the readers and the warp, SECONDS=20 for each target
 	$(Q)$(MAKE) --no-print-directory BUILD=build/fuzz CC=clang OPT='-O2 -fsanitize=fuzzer,address,undefined \
 	    -fno-sanitize-recover=all -fno-omit-frame-pointer' run-fuzz
 run-fuzz: $(FUZZERS)
