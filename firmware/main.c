@@ -131,8 +131,9 @@ int main(int argc, char **argv)
         .args_doc = "ROOM --node N",
         .doc = "The projector's firmware: shows on one wall of ROOM what the tracked viewer must see."
                "\vOn the host the bus is a port of 127.0.0.1 (socketcand protocol, channel can0), the camera a "
-               "picture or video file or \"pattern\", the display a folder for PNGs or \"none\". Ends on SIGINT or "
-               "SIGTERM. Exit status: 0 done, 1 failed, 2 bad usage.",
+               "picture or video file or \"pattern\", the display a folder for PNGs or \"none\"; nv12: or another "
+               "format may be before either, for pictures that are not XRGB. Ends on SIGINT or SIGTERM. Exit status: 0 "
+               "done, 1 failed, 2 bad usage.",
     };
     static room_t room;
     options_t options = {.devices = board_table, .kernels = warp_kernels_best()};

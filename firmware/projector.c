@@ -16,6 +16,7 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
     projector->wall = board->wall;
     projector->kernels = kernels;
     projector->poses = (can_poses_t){.viewer = 0};
+    projector->picture = (hal_camera_frame_t){.picture = {.format = PICTURE_XRGB8888}};
     projector->has_picture = false;
     projector->picture_us = hal_time_now_us(devices->clock);
     projector->report = (projector_report_t){.state = CAN_BOARD_WAITING};
@@ -80,19 +81,18 @@ static can_board_state_t state_now(const projector_t *p, int64_t now_us)
 }
 
 /* Warp the newest picture for the newest pose. @return false when that can't be done; the panel is then untouched. */
-static bool draw_corrected(projector_t *p, const image_t *panel)
+static bool draw_corrected(projector_t *p, const picture_t *panel)
 {
     homography_t homography;
     p->report.pose = p->poses.newest;
-    const picture_t to = picture_from_image(panel);
     if (!homography_from_pose(&homography, &p->camera, &p->wall, &p->report.pose.pose) ||
-        !warp_plan(&p->warp, p->kernels, &p->report.warp, &homography, &to, &p->picture.picture))
+        !warp_plan(&p->warp, p->kernels, &p->report.warp, &homography, panel, &p->picture.picture))
         return false;
     warp_steps_run(&p->warp, p->board.workers);
     return true;
 }
 
-static void draw(projector_t *p, const image_t *panel)
+static void draw(projector_t *p, const picture_t *panel)
 {
     const bool wanted = p->report.state == CAN_BOARD_RUNNING || p->report.state == CAN_BOARD_HOLDING;
     p->report.corrected = wanted && draw_corrected(p, panel);
@@ -110,11 +110,23 @@ static int64_t end_stage(projector_t *p, stage_t stage, int64_t begin_us)
     return end_us;
 }
 
+/* Luma and chroma stay apart where the display takes them: best with as much chroma as the picture has. */
+static picture_format_t panel_format(const projector_t *p)
+{
+    const picture_format_t from = p->picture.picture.format;
+    const bool halved = from == PICTURE_NV12;
+    const picture_format_t wanted[2] = {halved ? PICTURE_NV12 : PICTURE_YUYV, halved ? PICTURE_YUYV : PICTURE_NV12};
+    for (int i = 0; i < 2 && picture_is_yuv(from); i++)
+        if (hal_display_takes(p->board.display, wanted[i]))
+            return wanted[i];
+    return PICTURE_XRGB8888;
+}
+
 /* A new picture on the wall from the vertical blank at deadline_us on. @return Is the loop healthy? */
 static bool show(projector_t *p, int64_t begin_us, int64_t deadline_us)
 {
-    image_t panel;
-    hal_status_t status = hal_display_back_buffer(p->board.display, &panel);
+    picture_t panel;
+    hal_status_t status = hal_display_back_buffer(p->board.display, panel_format(p), p->picture.picture.matrix, &panel);
     if (status == HAL_OK)
         draw(p, &panel);
     const int64_t drawn_us = end_stage(p, STAGE_WARP, begin_us);

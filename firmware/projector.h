@@ -55,7 +55,7 @@ struct projector {
     const warp_kernels_t *kernels;
 
     can_poses_t poses;
-    hal_camera_frame_t picture; /**< the newest; lent by the camera */
+    hal_camera_frame_t picture; /**< the newest, lent by the camera; XRGB8888 without pixels before the first */
     bool has_picture;
     int64_t picture_us; /**< when it was taken; at first the start of the loop */
     warp_t warp;

@@ -5,15 +5,15 @@
 
 #include <stdint.h>
 
-#include "warp_fixed/image.h"
+#include "warp_fixed/picture.h"
 
 /**
  * Draw it: dark grey, a border line, a cross through the middle, and the node number as bars in the top-left corner,
  * wide for tens and narrow for ones.
  *
- * @param[out] panel  Every pixel is written. Any size and format.
+ * @param[out] panel  Every pixel is written. Any size; GRAY8, XRGB8888, or luma and chroma.
  * @param      node   1 to 63.
  */
-void safe_picture_draw(const image_t *panel, int32_t node);
+void safe_picture_draw(const picture_t *panel, int32_t node);
 
 #endif

@@ -35,7 +35,8 @@ typedef struct {
     const char *can;     /**< bus: an interface (can0), or in the simulator a port of 127.0.0.1 */
     const char *camera;  /**< video source: a device, or in the simulator a picture or video file, or "pattern";
                                 there a format may be before it, as in nv12:FILE */
-    const char *display; /**< where pictures go: a connector, or in the simulator a folder, or "none" */
+    const char *display; /**< where pictures go: a connector, or in the simulator a folder, or "none"; there a format
+                                that it takes besides XRGB8888 may be before it, as in nv12:none */
     hal_workers_settings_t workers; /**< threads that make a picture together */
 } board_table_t;
 

@@ -3,23 +3,32 @@
 #ifndef HAL_HAL_DISPLAY_H
 #define HAL_HAL_DISPLAY_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "hal/hal_status.h"
-#include "warp_fixed/image.h"
+#include "warp_fixed/picture.h"
 
 typedef struct hal_display hal_display_t;
+
+/** @return Can it show pictures of this format? Every display can show XRGB8888; which else never changes. */
+bool hal_display_takes(const hal_display_t *display, picture_format_t format);
 
 /**
  * Borrow the buffer that will be shown next.
  *
- * Borrowing again before presenting gives the same buffer.
+ * Borrowing again before presenting gives the same buffer, of the format and matrix asked for last. A display may need
+ * a blank or two to change between formats, so ask for another one only when the pictures are of another kind.
  *
- * @param[out] buffer  Written only when HAL_OK is returned: XRGB8888 of the projector's size, contents unspecified,
- *                     the caller's alone until hal_display_present().
- * @return HAL_OK; HAL_FULL when every buffer still waits to be shown; HAL_IO when the display is gone.
+ * @param      format  One that the display takes.
+ * @param      matrix  Which R, G and B the display must make of Y, U and V; else of no meaning.
+ * @param[out] buffer  Written only when HAL_OK is returned: of the projector's size, that format and matrix, contents
+ *                     unspecified, the caller's alone until hal_display_present().
+ * @return HAL_OK; HAL_BAD_CALL when the display does not take the format; HAL_FULL when every buffer still waits to be
+ *         shown; HAL_IO when the display is gone.
  */
-MUST_CHECK hal_status_t hal_display_back_buffer(hal_display_t *display, image_t *buffer);
+MUST_CHECK hal_status_t hal_display_back_buffer(hal_display_t *display, picture_format_t format,
+                                                picture_matrix_t matrix, picture_t *buffer);
 
 /**
  * Show the borrowed back buffer from the next vertical blank on; of several presented before one blank, the last.

@@ -9,7 +9,7 @@
 #include "hal/hal_board.h"
 #include "sim/bus/sim_bus.h"
 #include "sim/bus/socketcand_server.h"
-#include "sim/devices/camera_format.h"
+#include "sim/devices/sim_picture.h"
 #include "sim/devices/sim_camera.h"
 #include "sim/devices/sim_clock.h"
 #include "sim/devices/sim_display.h"
@@ -36,8 +36,10 @@ typedef struct {
 
 static void write_picture(bench_t *b, int64_t now_us)
 {
+    if (b->folder == NULL || now_us < b->picture_due_us)
+        return;
     const image_t *shown = sim_display_shown(b->devices.display);
-    if (b->folder == NULL || shown == NULL || now_us < b->picture_due_us)
+    if (shown == NULL)
         return;
     char path[4096];
     char error[FILE_ERROR_LENGTH];
@@ -92,25 +94,21 @@ static bool open_bus(bench_t *b, const board_table_t *table, const hal_board_nee
     return true;
 }
 
-/* What a name begins with, as nv12:FILE, and the video's name behind it. */
-static picture_format_t camera_format(const char **name)
+/* What a name begins with, as nv12:FILE, and the name behind it. */
+static picture_format_t take_format(const char **name)
 {
-    for (picture_format_t format = PICTURE_XRGB8888; format < PICTURE_FORMATS; format++) {
-        const size_t length = strlen(camera_format_names[format]);
-        if (format != PICTURE_GRAY8 && strncmp(*name, camera_format_names[format], length) == 0 &&
-            (*name)[length] == ':') {
-            *name += length + 1;
-            return format;
-        }
-    }
-    return PICTURE_XRGB8888;
+    picture_format_t format = PICTURE_XRGB8888;
+    const char *colon = strchr(*name, ':');
+    if (colon != NULL && sim_picture_format_from_name(&format, *name, (size_t)(colon - *name)))
+        *name = colon + 1;
+    return format;
 }
 
 static bool open_camera(bench_t *b, const board_table_t *table, const hal_board_needs_t *needs,
                         char error[HAL_BOARD_ERROR_LENGTH])
 {
     const char *name = table->camera;
-    const picture_format_t format = camera_format(&name);
+    const picture_format_t format = take_format(&name);
     b->video = video_open(name, needs->picture_width, needs->picture_height, error);
     if (b->video == NULL)
         return false;
@@ -125,7 +123,7 @@ static bool open_camera(bench_t *b, const board_table_t *table, const hal_board_
     b->devices.camera = sim_camera_create(&settings, error);
     if (b->devices.camera == NULL)
         return false;
-    fprintf(stderr, "camera: %s, %s, %dx%d, %d frames\n", name, camera_format_names[format], needs->picture_width,
+    fprintf(stderr, "camera: %s, %s, %dx%d, %d frames\n", name, sim_picture_formats[format], needs->picture_width,
             needs->picture_height, video->frame_count);
     return true;
 }
@@ -133,12 +131,15 @@ static bool open_camera(bench_t *b, const board_table_t *table, const hal_board_
 static bool open_display(bench_t *b, const board_table_t *table, const hal_board_needs_t *needs,
                          char error[HAL_BOARD_ERROR_LENGTH])
 {
-    b->folder = strcmp(table->display, "none") == 0 ? NULL : table->display;
+    const char *name = table->display;
+    const picture_format_t format = take_format(&name);
+    b->folder = strcmp(name, "none") == 0 ? NULL : name;
     if (b->folder != NULL && mkdir(b->folder, 0777) != 0 && errno != EEXIST)
         return file_error(error, b->folder, "can't make the folder for pictures: %s", strerror(errno));
     const sim_display_settings_t settings = {
         .width = needs->panel_width,
         .height = needs->panel_height,
+        .format = format,
         .clock = b->devices.clock,
         .blanks = {hal_time_now_us(b->devices.clock), REFRESH_HZ, 1},
         .while_waiting = move_world,
@@ -147,7 +148,8 @@ static bool open_display(bench_t *b, const board_table_t *table, const hal_board
     b->devices.display = sim_display_create(&settings, error);
     if (b->devices.display == NULL)
         return false;
-    fprintf(stderr, "display: %dx%d at %d Hz, %s%s\n", needs->panel_width, needs->panel_height, REFRESH_HZ,
+    fprintf(stderr, "display: %s, %dx%d at %d Hz, %s%s\n", sim_picture_formats[format], needs->panel_width,
+            needs->panel_height, REFRESH_HZ,
             b->folder == NULL ? "no files" : "a PNG each second: ", b->folder == NULL ? "" : b->folder);
     return true;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program wallwarp-sim: a room of boards on this machine, or one wall for one pose.
 #include <argp.h>
-#include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,24 +8,11 @@
 
 #include "sim/eval/warp_once.h"
 #include "sim/files/png_file.h"
+#include "sim/options.h"
 #include "sim/program.h"
-#include "sim/run/sim_run.h"
+#include "sim/run/run_options.h"
 
-enum {
-    KEY_VIDEO = 256,
-    KEY_POSES,
-    KEY_BUS,
-    KEY_OUT,
-    KEY_FRAMES,
-    KEY_METHOD,
-    KEY_KERNELS,
-    KEY_RATE,
-    KEY_ORIGINAL,
-    KEY_JUDGE,
-    KEY_BOARD,
-    KEY_POSE,
-    KEY_IN
-};
+enum { KEY_BOARD = 256, KEY_POSE, KEY_IN, KEY_OUT, KEY_METHOD, KEY_KERNELS };
 
 static volatile sig_atomic_t stop_requested;
 
@@ -36,129 +22,10 @@ static void request_stop(int signal_number)
     stop_requested = 1;
 }
 
-/* A whole number in a range, or the end of the program as bad usage. */
-static int32_t read_number(struct argp_state *state, const char *name, const char *text, long least, long most)
-{
-    char *end;
-    errno = 0;
-    const long number = strtol(text, &end, 10);
-    if (end == text || *end != '\0' || errno != 0 || number < least || number > most)
-        argp_error(state, "--%s: found \"%s\", expected a whole number from %ld to %ld", name, text, least, most);
-    return (int32_t)number;
-}
-
-static double read_rate(struct argp_state *state, const char *text)
-{
-    char *end;
-    const double rate = strtod(text, &end);
-    if (end == text || *end != '\0' || !(rate >= 0.001 && rate <= 1000))
-        argp_error(state, "--rate: found \"%s\", expected 0.001 to 1000 Hz", text);
-    return rate;
-}
-
-static const warp_kernels_t *read_kernels(struct argp_state *state, const char *text)
-{
-    const warp_kernels_t *kernels = warp_kernels_from_name(text);
-    if (kernels == NULL)
-        argp_error(state, "--kernels: found \"%s\", expected scalar or neon", text);
-    return kernels;
-}
-
-static const warp_method_t *read_method(struct argp_state *state, const char *text)
-{
-    const warp_method_t *method = warp_method_from_name(text);
-    if (method != NULL)
-        return method;
-    char names[PROGRAM_NAMES_LENGTH];
-    program_method_names(names);
-    argp_error(state, "--method: found \"%s\", expected one of %s", text, names);
-    return NULL;
-}
-
-static error_t read_room(const char **room, char *text, struct argp_state *state)
-{
-    if (state->arg_num > 0)
-        argp_error(state, "found \"%s\", expected one room file", text);
-    *room = text;
-    return 0;
-}
-
-static const struct argp_option run_options[] = {
-    {"video", KEY_VIDEO, "FILE", 0,
-     "What the cameras deliver: PNG, numbered PNGs (frame_%05d.png), Y4M, raw XRGB, or "
-     "\"pattern\"; needed",
-     0},
-    {"poses", KEY_POSES, "CSV", 0, "Pose list, run in virtual time", 0},
-    {"bus", KEY_BUS, "PORT", 0, "Run in real time with the bus open on 127.0.0.1:PORT; 0 takes any free port", 0},
-    {"out", KEY_OUT, "DIR", 0, "Folder for pictures, tables and the page; needed", 0},
-    {"frames", KEY_FRAMES, "N", 0, "End after N frames (default: with the list, or on Ctrl-C)", 0},
-    {"method", KEY_METHOD, "M", 0, "Method of every board, in place of the room's", 0},
-    {"rate", KEY_RATE, "HZ", 0, "Refresh rate (default: the list's own up to 60, or 60)", 0},
-    {"original", KEY_ORIGINAL, "PNG", 0, "A finer original of the picture, to judge by as well", 0},
-    {"judge", KEY_JUDGE, "N", 0, "Judge every Nth frame, 0 none (default: 8 frames of the run)", 0},
-    {"kernels", KEY_KERNELS, "LEVEL", 0, "Pixel loops: scalar or neon, of the same bytes (default: the fastest)", 0},
-    {0},
-};
-
-static error_t read_run(int key, char *text, struct argp_state *state)
-{
-    sim_run_options_t *run = state->input;
-    switch (key) {
-    case KEY_VIDEO:
-        run->video = text;
-        return 0;
-    case KEY_POSES:
-        run->poses = text;
-        return 0;
-    case KEY_BUS:
-        run->bus_port = read_number(state, "bus", text, 0, 65535);
-        return 0;
-    case KEY_OUT:
-        run->out = text;
-        return 0;
-    case KEY_FRAMES:
-        run->frames = read_number(state, "frames", text, 1, SIM_RUN_MAX_FRAMES);
-        return 0;
-    case KEY_METHOD:
-        run->method = read_method(state, text);
-        return 0;
-    case KEY_KERNELS:
-        run->kernels = read_kernels(state, text);
-        return 0;
-    case KEY_RATE:
-        run->rate_hz = read_rate(state, text);
-        return 0;
-    case KEY_ORIGINAL:
-        run->original = text;
-        return 0;
-    case KEY_JUDGE:
-        run->judge = read_number(state, "judge", text, 0, SIM_RUN_MAX_FRAMES);
-        return 0;
-    case ARGP_KEY_ARG:
-        return read_room(&run->room, text, state);
-    case ARGP_KEY_END:
-        if (run->room == NULL || run->video == NULL || run->out == NULL)
-            argp_error(state, "expected ROOM, --video FILE and --out DIR");
-        if ((run->poses == NULL) == (run->bus_port == SIM_RUN_NO_BUS))
-            argp_error(state, "expected either --poses CSV or --bus PORT");
-        return 0;
-    default:
-        return ARGP_ERR_UNKNOWN;
-    }
-}
-
 static int run_command(int argc, char **argv)
 {
-    static const struct argp argp = {
-        .options = run_options,
-        .parser = read_run,
-        .args_doc = "ROOM",
-        .doc = "Run the real firmware of every board of ROOM over a simulated bus; write pictures, tables and "
-               "index.html into DIR.",
-    };
-    sim_run_options_t run = {.bus_port = SIM_RUN_NO_BUS, .judge = SIM_RUN_JUDGE_USUAL};
-    if (argp_parse(&argp, argc, argv, 0, NULL, &run) != 0)
-        return PROGRAM_BAD_USAGE;
+    sim_run_options_t run;
+    run_options_parse(&run, argc, argv);
     signal(SIGINT, request_stop);
     signal(SIGTERM, request_stop);
     return sim_run(&run, &stop_requested);
@@ -198,13 +65,13 @@ static error_t read_warp(int key, char *text, struct argp_state *state)
         warp->out = text;
         return 0;
     case KEY_METHOD:
-        warp->method = read_method(state, text);
+        warp->method = options_method(state, text);
         return 0;
     case KEY_KERNELS:
-        warp->kernels = read_kernels(state, text);
+        warp->kernels = options_kernels(state, text);
         return 0;
     case ARGP_KEY_ARG:
-        return read_room(&warp->place.room, text, state);
+        return options_room(&warp->place.room, text, state);
     case ARGP_KEY_END:
         if (warp->place.room == NULL || warp->place.board == NULL || warp->place.pose == NULL || warp->in == NULL ||
             warp->out == NULL)

@@ -5,7 +5,7 @@
 #include <assert.h>
 #include <stdlib.h>
 
-#include "sim/devices/camera_format.h"
+#include "sim/devices/sim_picture.h"
 #include "sim/rng.h"
 
 /* Two held by the firmware, one ready to be taken, one being decoded. */
@@ -44,28 +44,9 @@ static sim_rate_t rate_of(const sim_camera_settings_t *settings)
     return rate;
 }
 
-/* A picture in `bytes`, of picture_bytes() of the same. */
 static picture_t picture_of(const sim_camera_settings_t *settings, uint8_t *bytes)
 {
-    static const int32_t pixel_bytes[PICTURE_FORMATS] = {
-        [PICTURE_XRGB8888] = 4, [PICTURE_GRAY8] = 1, [PICTURE_RGB888] = 3, [PICTURE_BGR888] = 3,
-        [PICTURE_YUYV] = 2,     [PICTURE_UYVY] = 2,  [PICTURE_NV12] = 1,
-    };
-    const int32_t stride = settings->width * pixel_bytes[settings->format];
-    picture_t picture = {.format = settings->format,
-                         .width = settings->width,
-                         .height = settings->height,
-                         .data = {bytes},
-                         .stride = {stride, settings->width}};
-    if (bytes != NULL && settings->format == PICTURE_NV12)
-        picture.data[1] = bytes + (ptrdiff_t)stride * settings->height;
-    return picture;
-}
-
-static size_t picture_bytes(const picture_t *picture)
-{
-    const size_t whole = (size_t)picture->stride[0] * (size_t)picture->height;
-    return picture->format == PICTURE_NV12 ? whole * 3 / 2 : whole;
+    return sim_picture(settings->format, settings->width, settings->height, bytes);
 }
 
 static bool settings_are_right(const sim_camera_settings_t *settings, char error[FILE_ERROR_LENGTH])
@@ -77,7 +58,7 @@ static bool settings_are_right(const sim_camera_settings_t *settings, char error
     const picture_t picture = picture_of(settings, NULL);
     if (!picture_is_valid(&picture))
         return file_error(error, "camera", "picture %dx%d, expected an even size for %s", settings->width,
-                          settings->height, camera_format_names[settings->format]);
+                          settings->height, sim_picture_formats[settings->format]);
     const sim_rate_t rate = rate_of(settings);
     if (!sim_rate_is_valid(&rate))
         return file_error(error, "camera", "%d pictures in %d s, expected up to 1000000 a second", rate.frames,
@@ -94,7 +75,7 @@ hal_camera_t *sim_camera_create(const sim_camera_settings_t *settings, char erro
     hal_camera_t *camera = malloc(sizeof *camera);
     const picture_t picture = picture_of(settings, NULL);
     const int32_t stride = settings->width * (int32_t)IMAGE_XRGB8888;
-    const size_t bytes = picture_bytes(&picture), decoded = (size_t)stride * (size_t)settings->height;
+    const size_t bytes = sim_picture_bytes(&picture), decoded = (size_t)stride * (size_t)settings->height;
     uint8_t *pixels = malloc(decoded + bytes * BUFFERS);
     if (camera == NULL || pixels == NULL) {
         free(camera);
@@ -195,7 +176,7 @@ static bool decode(hal_camera_t *camera, int64_t index, const picture_t *picture
     if (!video_frame(camera->settings.video, index, &image, error))
         return false;
     if (!direct)
-        camera_format_convert(picture, &image);
+        sim_picture_from_xrgb(picture, &image);
     return true;
 }
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "sim/devices/sim_clock.h"
+#include "sim/devices/sim_picture.h"
 
 enum { BUFFERS = 3, NONE = -1, NO_BLANK_US = 100000 };
 
@@ -12,30 +13,41 @@ struct hal_display {
     sim_display_settings_t settings;
     sim_display_faults_t faults;
     sim_display_counts_t counts;
-    image_t buffers[BUFFERS];
+    picture_t buffers[BUFFERS];
+    image_t shown_image, converted;     /**< what is shown, as XRGB8888; memory for that */
     int shown, late, waiting, borrowed; /**< which buffer has that part, or NONE; all different */
     uint32_t late_blanks;               /**< how many blanks the late one has to wait yet */
     int64_t blank;                      /**< the last one performed */
     uint8_t *pixels;
 };
 
+static bool settings_are_right(const sim_display_settings_t *settings, char error[FILE_ERROR_LENGTH])
+{
+    const picture_format_t format = settings->format;
+    if (settings->width < 1 || settings->width > IMAGE_MAX_WIDTH || settings->height < 1 ||
+        settings->height > IMAGE_MAX_HEIGHT)
+        return file_error(error, "display", "panel %dx%d, expected at most %dx%d", settings->width, settings->height,
+                          IMAGE_MAX_WIDTH, IMAGE_MAX_HEIGHT);
+    if (format != PICTURE_XRGB8888 && format != PICTURE_NV12 && format != PICTURE_YUYV)
+        return file_error(error, "display", "format %s, expected xrgb8888, nv12 or yuyv", sim_picture_formats[format]);
+    const picture_t panel = sim_picture(format, settings->width, settings->height, NULL);
+    if (!picture_is_valid(&panel))
+        return file_error(error, "display", "panel %dx%d, expected an even size for %s", settings->width,
+                          settings->height, sim_picture_formats[format]);
+    if (!sim_rate_is_valid(&settings->blanks))
+        return file_error(error, "display", "%d blanks in %d s, expected up to 1000000 a second",
+                          settings->blanks.frames, settings->blanks.seconds);
+    return true;
+}
+
 hal_display_t *sim_display_create(const sim_display_settings_t *settings, char error[FILE_ERROR_LENGTH])
 {
-    if (settings->width < 1 || settings->width > IMAGE_MAX_WIDTH || settings->height < 1 ||
-        settings->height > IMAGE_MAX_HEIGHT) {
-        file_error(error, "display", "panel %dx%d, expected at most %dx%d", settings->width, settings->height,
-                   IMAGE_MAX_WIDTH, IMAGE_MAX_HEIGHT);
+    if (!settings_are_right(settings, error))
         return NULL;
-    }
-    if (!sim_rate_is_valid(&settings->blanks)) {
-        file_error(error, "display", "%d blanks in %d s, expected up to 1000000 a second", settings->blanks.frames,
-                   settings->blanks.seconds);
-        return NULL;
-    }
     const int32_t stride = settings->width * (int32_t)IMAGE_XRGB8888;
-    const size_t bytes = (size_t)stride * (size_t)settings->height;
+    const size_t bytes = (size_t)stride * (size_t)settings->height; /* enough for any format */
     hal_display_t *display = malloc(sizeof *display);
-    uint8_t *pixels = calloc(BUFFERS, bytes);
+    uint8_t *pixels = calloc(BUFFERS + 1, bytes);
     if (display == NULL || pixels == NULL) {
         free(display);
         free(pixels);
@@ -46,7 +58,8 @@ hal_display_t *sim_display_create(const sim_display_settings_t *settings, char e
     display->pixels = pixels;
     display->blank = sim_rate_beat_at(&settings->blanks, hal_time_now_us(settings->clock));
     for (size_t i = 0; i < BUFFERS; i++)
-        display->buffers[i] = (image_t){pixels + i * bytes, settings->width, settings->height, stride, IMAGE_XRGB8888};
+        display->buffers[i].data[0] = pixels + i * bytes;
+    display->converted = (image_t){pixels + BUFFERS * bytes, settings->width, settings->height, stride, IMAGE_XRGB8888};
     return display;
 }
 
@@ -119,11 +132,22 @@ void sim_display_advance(hal_display_t *display, int64_t now_us)
     }
 }
 
-const image_t *sim_display_shown(const hal_display_t *display)
+const picture_t *sim_display_scanned(const hal_display_t *display)
 {
     if (display->shown == NONE || is_unplugged(display, hal_time_now_us(display->settings.clock)))
         return NULL;
     return &display->buffers[display->shown];
+}
+
+const image_t *sim_display_shown(hal_display_t *display)
+{
+    const picture_t *shown = sim_display_scanned(display);
+    if (shown == NULL)
+        return NULL;
+    display->shown_image = shown->format == PICTURE_XRGB8888 ? picture_plane(shown, 0) : display->converted;
+    if (shown->format != PICTURE_XRGB8888)
+        sim_picture_to_xrgb(&display->converted, shown);
+    return &display->shown_image;
 }
 
 static int find_free(const hal_display_t *display)
@@ -134,17 +158,28 @@ static int find_free(const hal_display_t *display)
     return NONE;
 }
 
-hal_status_t hal_display_back_buffer(hal_display_t *display, image_t *buffer)
+bool hal_display_takes(const hal_display_t *display, picture_format_t format)
+{
+    return format == PICTURE_XRGB8888 || format == display->settings.format;
+}
+
+hal_status_t hal_display_back_buffer(hal_display_t *display, picture_format_t format, picture_matrix_t matrix,
+                                     picture_t *buffer)
 {
     const int64_t now_us = hal_time_now_us(display->settings.clock);
     sim_display_advance(display, now_us);
+    if (!hal_display_takes(display, format))
+        return HAL_BAD_CALL;
     if (is_unplugged(display, now_us))
         return HAL_IO;
     if (display->borrowed == NONE)
         display->borrowed = find_free(display);
     if (display->borrowed == NONE)
         return HAL_FULL;
-    *buffer = display->buffers[display->borrowed];
+    picture_t *borrowed = &display->buffers[display->borrowed];
+    *borrowed = sim_picture(format, display->settings.width, display->settings.height, borrowed->data[0]);
+    borrowed->matrix = matrix;
+    *buffer = *borrowed;
     sim_clock_work(display->settings.clock, display->faults.drawing_us);
     return HAL_OK;
 }

@@ -15,9 +15,10 @@
  * the same blank takes its place. Borrowing again without presenting gives the same buffer again.
  */
 typedef struct {
-    int32_t width, height; /**< of the panel, pixels */
-    hal_time_t *clock;     /**< the board's; must outlive the display */
-    sim_rate_t blanks;     /**< vertical blanks, on that clock: rate and phase */
+    int32_t width, height;   /**< of the panel, pixels */
+    picture_format_t format; /**< NV12 or YUYV: taken besides XRGB8888; XRGB8888: no other is */
+    hal_time_t *clock;       /**< the board's; must outlive the display */
+    sim_rate_t blanks;       /**< vertical blanks, on that clock: rate and phase */
 
     /**
      * With a real clock: called by hal_display_wait_vblank() before it sleeps, so that a program without a simulator
@@ -57,8 +58,14 @@ void sim_display_destroy(hal_display_t *display);
  */
 void sim_display_advance(hal_display_t *display, int64_t now_us);
 
-/** @return The picture on the wall since the last blank; NULL while it is dark: nothing shown yet, or unplugged. */
-const image_t *sim_display_shown(const hal_display_t *display);
+/**
+ * @return The picture on the wall since the last blank, as XRGB8888, until the next call; NULL while the wall is dark:
+ *         nothing shown yet, or unplugged.
+ */
+const image_t *sim_display_shown(hal_display_t *display);
+
+/** @return The same picture as it is scanned out, in its own format. */
+const picture_t *sim_display_scanned(const hal_display_t *display);
 
 /** @return The faults, to be set and cleared at any time between the firmware's steps. */
 sim_display_faults_t *sim_display_faults(hal_display_t *display);

@@ -102,19 +102,17 @@ static bool hand_over(run_loop_t *loop, int64_t blank_us)
     job->seen = frame->seen;
     job->eye = frame->eye;
     job->judge = loop->judge_every > 0 && n % loop->judge_every == loop->judge_every / 2;
-    image_t picture;
-    bool has_picture = false;
+    const picture_t *picture = NULL;
     for (int32_t i = 0; i < loop->record->boards; i++) {
         const projector_t *projector = sim_world_projector(loop->world, i);
         const image_t *shown = sim_world_shown(loop->world, i, blank_us);
         job->corrected[i] = projector->report.corrected && shown != NULL;
-        run_pictures_copy(&job->shown[i], shown);
-        if (!has_picture && projector->has_picture) {
-            picture = picture_plane(&projector->picture.picture, 0);
-            has_picture = true;
-        }
+        const picture_t panel = shown == NULL ? (picture_t){0} : picture_from_image(shown);
+        run_pictures_copy(&job->shown[i], shown == NULL ? NULL : &panel);
+        if (picture == NULL && projector->has_picture)
+            picture = &projector->picture.picture;
     }
-    run_pictures_copy(&job->picture, has_picture ? &picture : NULL);
+    run_pictures_copy(&job->picture, picture);
     run_pictures_submit(loop->pictures, job);
     return true;
 }

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "sim/devices/sim_picture.h"
+
 typedef enum { JOB_FREE, JOB_BORROWED, JOB_READY, JOB_AT_WORK } job_state_t;
 
 struct run_pictures {
@@ -184,13 +186,10 @@ bool run_pictures_finish(run_pictures_t *pictures, run_record_t *record, char er
     return ok;
 }
 
-void run_pictures_copy(const image_t *to, const image_t *from)
+void run_pictures_copy(const image_t *to, const picture_t *from)
 {
-    const size_t bytes = (size_t)to->width * (size_t)to->format;
-    for (int32_t y = 0; y < to->height; y++) {
-        if (from == NULL)
-            memset(image_row(to, y), 0, bytes);
-        else
-            memcpy(image_row(to, y), image_row(from, y), bytes);
-    }
+    if (from != NULL)
+        sim_picture_to_xrgb(to, from);
+    for (int32_t y = 0; from == NULL && y < to->height; y++)
+        memset(image_row(to, y), 0, (size_t)to->width * IMAGE_XRGB8888);
 }

@@ -7,6 +7,7 @@
 
 #include "sim/run/run_draw.h"
 #include "sim/run/run_record.h"
+#include "warp_fixed/picture.h"
 
 typedef struct run_pictures run_pictures_t;
 
@@ -42,7 +43,7 @@ void run_pictures_submit(run_pictures_t *pictures, run_job_t *job);
  */
 bool run_pictures_finish(run_pictures_t *pictures, run_record_t *record, char error[FILE_ERROR_LENGTH]);
 
-/** Copy the pixels of a picture of the same size and format; a NULL one is black. */
-void run_pictures_copy(const image_t *to, const image_t *from);
+/** Copy the pixels of a picture of the same size, any format but GRAY8, to XRGB8888; a NULL one is black. */
+void run_pictures_copy(const image_t *to, const picture_t *from);
 
 #endif

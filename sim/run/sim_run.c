@@ -106,6 +106,8 @@ static bool open_world(run_t *run)
         .video = run->video,
         .method = run->options->method,
         .kernels = run->options->kernels,
+        .camera = run->options->camera,
+        .display = run->options->display,
         .real = is_real(run),
         .start_us = run->loop.start_us,
         .refresh = run->loop.refresh,

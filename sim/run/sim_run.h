@@ -8,6 +8,7 @@
 
 #include "warp_fixed/kernels.h"
 #include "warp_fixed/method.h"
+#include "warp_fixed/picture.h"
 
 enum { SIM_RUN_JUDGE_USUAL = -1, SIM_RUN_NO_BUS = -1, SIM_RUN_MAX_FRAMES = 1000000 };
 
@@ -20,6 +21,8 @@ typedef struct {
     int32_t frames;                /**< 0: as long as the list, or until *stop */
     const warp_method_t *method;   /**< of every board; NULL for the room's */
     const warp_kernels_t *kernels; /**< of every board; NULL for the fastest */
+    picture_format_t camera;       /**< what the cameras deliver; any but GRAY8 */
+    picture_format_t display;      /**< what the displays take besides XRGB8888: NV12, YUYV or XRGB8888 */
     double rate_hz;                /**< refresh; 0: the list's own rate up to 60 Hz, or 60 Hz */
     const char *original;          /**< PNG, q times as wide and high as the camera's picture; NULL for none */
     int32_t judge; /**< measure PSNR of every so many frames; 0 none; SIM_RUN_JUDGE_USUAL: 8 of the run */

@@ -40,6 +40,7 @@ static bool open_devices(sim_world_t *world, int32_t index, char error[FILE_ERRO
         .video = config->video,
         .width = config->room->camera.width,
         .height = config->room->camera.height,
+        .format = config->camera,
         .rate = {config->start_us, video->rate_frames, video->rate_seconds},
         .seed = (uint32_t)config->seed + (uint32_t)index,
     };
@@ -47,6 +48,7 @@ static bool open_devices(sim_world_t *world, int32_t index, char error[FILE_ERRO
     const sim_display_settings_t display = {
         .width = board->wall.panel_width,
         .height = board->wall.panel_height,
+        .format = config->display,
         .clock = devices->clock,
         .blanks = config->refresh,
     };

@@ -22,6 +22,8 @@ typedef struct {
     video_t *video;                /**< what every camera plays; must outlive the world */
     const warp_method_t *method;   /**< of every board, in place of the room's; NULL for the room's */
     const warp_kernels_t *kernels; /**< of every board; NULL for the fastest */
+    picture_format_t camera;       /**< what every camera delivers; any but GRAY8 */
+    picture_format_t display;      /**< what every display takes besides XRGB8888: NV12, YUYV or XRGB8888 */
     bool real;                     /**< clocks run by themselves (CLOCK_MONOTONIC); else in virtual time */
     int64_t start_us;              /**< now, when the world begins: the cameras' first picture */
     sim_rate_t refresh;            /**< vertical blanks of all displays; beat 0 is after start_us */

@@ -45,15 +45,20 @@ void display_rig_go_to(const display_rig_t *rig, int64_t time_us)
     sim_display_advance(rig->display, time_us);
 }
 
+hal_status_t display_rig_borrow(const display_rig_t *rig, picture_t *buffer)
+{
+    return hal_display_back_buffer(rig->display, PICTURE_XRGB8888, PICTURE_BT709, buffer);
+}
+
 hal_status_t display_rig_draw(const display_rig_t *rig, int value)
 {
-    image_t buffer;
-    const hal_status_t status = hal_display_back_buffer(rig->display, &buffer);
+    picture_t buffer;
+    const hal_status_t status = display_rig_borrow(rig, &buffer);
     if (status != HAL_OK)
         return status;
     assert_true(buffer.width == DISPLAY_RIG_WIDTH && buffer.height == DISPLAY_RIG_HEIGHT &&
-                buffer.format == IMAGE_XRGB8888);
-    memset(buffer.data, value, (size_t)buffer.stride * DISPLAY_RIG_HEIGHT);
+                buffer.format == PICTURE_XRGB8888);
+    memset(buffer.data[0], value, (size_t)buffer.stride[0] * DISPLAY_RIG_HEIGHT);
     return hal_display_present(rig->display);
 }
 

@@ -27,6 +27,9 @@ void display_rig_close(const display_rig_t *rig);
 /** Set the clock, and advance the display to it. */
 void display_rig_go_to(const display_rig_t *rig, int64_t time_us);
 
+/** Borrow an XRGB8888 buffer. */
+hal_status_t display_rig_borrow(const display_rig_t *rig, picture_t *buffer);
+
 /** Borrow, fill every byte with one value, present. */
 hal_status_t display_rig_draw(const display_rig_t *rig, int value);
 

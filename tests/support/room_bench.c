@@ -164,7 +164,8 @@ bool room_bench_is_safe_picture(room_bench_t *bench, int board)
     const image_t *shown = sim_world_shown(bench->world, board, room_bench_now_us(bench));
     if (shown == NULL)
         return false;
-    safe_picture_draw(&expected, bench->room.board[board].node);
+    const picture_t panel = picture_from_image(&expected);
+    safe_picture_draw(&panel, bench->room.board[board].node);
     for (int32_t y = 0; y < expected.height; y++)
         if (memcmp(image_row(&expected, y), image_row(shown, y), 96 * 4) != 0)
             return false;

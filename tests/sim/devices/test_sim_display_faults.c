@@ -42,8 +42,8 @@ static void test_late_flips(void **state)
     display_rig_go_to(&rig, display_rig_blank_us(2));
     assert_int_equal(display_rig_wall(&rig), 1);
     assert_int_equal(display_rig_draw(&rig, 3), HAL_OK);
-    image_t buffer = {.width = -1};
-    assert_int_equal(hal_display_back_buffer(rig.display, &buffer), HAL_FULL); /* 1 shown, 2 late, 3 waits */
+    picture_t buffer = {.width = -1};
+    assert_int_equal(display_rig_borrow(&rig, &buffer), HAL_FULL); /* 1 shown, 2 late, 3 waits */
     assert_int_equal(buffer.width, -1);
     display_rig_go_to(&rig, display_rig_blank_us(3));
     assert_int_equal(display_rig_wall(&rig), 1);
@@ -85,11 +85,11 @@ static void test_unplugged(void **state)
     assert_int_equal(display_rig_draw(&rig, 1), HAL_OK);
     display_rig_go_to(&rig, display_rig_blank_us(1));
     assert_int_equal(display_rig_draw(&rig, 2), HAL_OK);
-    image_t buffer = {.width = -1}, borrowed;
-    assert_int_equal(hal_display_back_buffer(rig.display, &borrowed), HAL_OK);
+    picture_t buffer = {.width = -1}, borrowed;
+    assert_int_equal(display_rig_borrow(&rig, &borrowed), HAL_OK);
     sim_display_faults(rig.display)->unplugged_until_us = display_rig_blank_us(4) + 5;
     assert_int_equal(display_rig_wall(&rig), -1);
-    assert_int_equal(hal_display_back_buffer(rig.display, &buffer), HAL_IO);
+    assert_int_equal(display_rig_borrow(&rig, &buffer), HAL_IO);
     assert_int_equal(buffer.width, -1);
     assert_int_equal(hal_display_present(rig.display), HAL_IO);
     assert_int_equal(hal_display_present(rig.display), HAL_BAD_CALL);

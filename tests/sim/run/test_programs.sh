@@ -78,6 +78,21 @@ test_options() {
     check "a run beyond the list holds, then goes safe" $?
     awk -F, 'NR > 1 && !($5 > 10 && $5 <= $6) { bad = 1 } END { exit bad || NR < 5 }' "$scratch/fast/psnr.csv"
     check "PSNR against the original is below its limit" $?
+    for format in nv12 yuyv; do
+        for display in xrgb8888 $format; do
+            run "$scratch/fd.yaml" --video $picture --poses "$scratch/one.csv" --out "$scratch/$format-$display" \
+                --camera $format --display $display
+            check "a camera of $format, a display of $display" $?
+            awk -F, 'NR > 1 && !($3 > 15 && $3 <= $4) { bad = 1 } END { exit bad || NR < 2 }' \
+                "$scratch/$format-$display/psnr.csv"
+            check "they show the picture" $?
+        done
+        cmp "$scratch/$format-xrgb8888/front_00000.png" "$scratch/$format-$format/front_00000.png"
+        check "luma and chroma of $format become the same on the way to the display, and in it" $?
+        cmp -s "$scratch/fd/front_00000.png" "$scratch/$format-$format/front_00000.png"
+        [ $? -eq 1 ]
+        check "but not what a camera of xrgb8888 shows" $?
+    done
     (PATH=/nonexistent run_without_path)
     check "without gnuplot: an error that names its package, and the page all the same" $?
 }
@@ -118,7 +133,7 @@ test_live_run() {
 }
 
 test_firmware() {
-    "$build/wallwarp" "$scratch/classic.yaml" --node 1 --can 0 --camera nv12:$picture --display "$scratch/display" \
+    "$build/wallwarp" "$scratch/classic.yaml" --node 1 --can 0 --camera nv12:$picture --display "nv12:$scratch/display" \
         --workers 2 2>"$scratch/wallwarp.err" &
     id=$!
     started="$started $id"
@@ -145,6 +160,7 @@ test_firmware() {
     refuses 1 "missing.png" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --can 0 --camera "$scratch/missing.png"
     refuses 1 "port" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --can vcan0
     refuses 1 "folder" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --can 0 --display "$scratch/fd.yaml/x"
+    refuses 1 "expected xrgb8888, nv12 or yuyv" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --can 0 --display uyvy:none
 }
 
 test_bad_runs() {
@@ -162,6 +178,9 @@ test_bad_runs() {
     refuses 2 "--rate" "$@" --video pattern --poses "$scratch/ten.csv" --rate nan
     refuses 2 "one room file" "$@" "$scratch/fd.yaml" --video pattern --poses "$scratch/ten.csv"
     refuses 2 "--nonsense" "$@" --nonsense
+    refuses 2 "--camera: found \"gray8\"" "$@" --video pattern --poses "$scratch/ten.csv" --camera gray8
+    refuses 2 "--display: found \"nv\"" "$@" --video pattern --poses "$scratch/ten.csv" --display nv
+    refuses 1 "expected xrgb8888, nv12 or yuyv" "$@" --video pattern --poses "$scratch/one.csv" --display rgb888
     refuses 1 "missing.csv" "$@" --video pattern --poses "$scratch/missing.csv"
     refuses 1 "missing.png" "$@" --video "$scratch/missing.png" --poses "$scratch/ten.csv"
     refuses 1 "480" "$@" --video tests/images/coffee_510x290.png --poses "$scratch/ten.csv"
