@@ -4,7 +4,7 @@
 #include "warp_fixed/kernels_scalar.h"
 #include "warp_fixed/neon.h"
 
-enum { LANES = 16, PAIRS = LANES / 2 };
+enum { LANES = 16, PAIRS = LANES / 2, SCALE_BITS = 16 - COLOR_BITS };
 
 void planes_from_yuyv_neon(uint8_t *restrict luma, uint8_t *restrict chroma, const uint8_t *restrict from,
                            int32_t pairs)
@@ -35,7 +35,7 @@ void yuyv_from_planes_neon(uint8_t *restrict out, const uint8_t *restrict luma, 
     yuyv_from_planes_scalar(out + 4 * i, luma + 2 * i, chroma + 2 * i, pairs - i);
 }
 
-/* Eight of them in 1 / 2^COLOR_BITS. */
+/* Eight of them in 1 / 2^16. */
 typedef struct {
     int32x4_t low, high;
 } sums_t;
@@ -51,38 +51,54 @@ static inline sums_t add_product(sums_t sums, int16x8_t values, int16_t weight)
                     vmlal_n_s16(sums.high, vget_high_s16(values), weight)};
 }
 
-/* Each twice. */
-static inline sums_t add_twice(const sums_t *luma, sums_t chroma, int half)
+/* In units whose products with weights are in 1 / 2^16: a narrowing addition then rounds and shifts. */
+static inline int16x8_t scaled(uint8x8_t values, int16_t zero)
 {
-    const int32x4_t four = half == 0 ? chroma.low : chroma.high;
-    return (sums_t){vaddq_s32(luma->low, vzip1q_s32(four, four)), vaddq_s32(luma->high, vzip2q_s32(four, four))};
+    const int16x8_t wide = vreinterpretq_s16_u16(vshll_n_u8(values, SCALE_BITS));
+    return vsubq_s16(wide, vdupq_n_s16((int16_t)(zero << SCALE_BITS)));
 }
 
-/* As color_byte(): |sum| < 2^23, and 2^23 / 2^COLOR_BITS fits 16 bits. */
-static inline uint8x8_t bytes(sums_t sums)
+/* As color_byte(), of sums below 2^26: of left pixels, then of right ones. */
+static inline uint8x16_t bytes(sums_t left, sums_t right, sums_t chroma)
 {
-    return vqmovun_s16(vcombine_s16(vrshrn_n_s32(sums.low, COLOR_BITS), vrshrn_n_s32(sums.high, COLOR_BITS)));
+    const int16x8_t first =
+        vcombine_s16(add_rounded_high(left.low, chroma.low), add_rounded_high(left.high, chroma.high));
+    const int16x8_t second =
+        vcombine_s16(add_rounded_high(right.low, chroma.low), add_rounded_high(right.high, chroma.high));
+    return vcombine_u8(vqmovun_s16(first), vqmovun_s16(second));
+}
+
+/* Eight pixels: B and G of each, R and X of each. */
+static inline void store_eight(uint8_t *out, uint16x8_t bg, uint16x8_t rx)
+{
+    vst1q_u8(out, vreinterpretq_u8_u16(vzip1q_u16(bg, rx)));
+    vst1q_u8(out + LANES, vreinterpretq_u8_u16(vzip2q_u16(bg, rx)));
+}
+
+/* Left pixels of eight pairs, then right ones. */
+static inline void store_pairs(uint8_t *out, uint8x16_t b, uint8x16_t g, uint8x16_t r)
+{
+    const uint8x16_t x = vdupq_n_u8(0);
+    const uint16x8_t left_bg = vreinterpretq_u16_u8(vzip1q_u8(b, g)), right_bg = vreinterpretq_u16_u8(vzip2q_u8(b, g));
+    const uint16x8_t left_rx = vreinterpretq_u16_u8(vzip1q_u8(r, x)), right_rx = vreinterpretq_u16_u8(vzip2q_u8(r, x));
+    store_eight(out, vzip1q_u16(left_bg, right_bg), vzip1q_u16(left_rx, right_rx));
+    store_eight(out + 2 * LANES, vzip2q_u16(left_bg, right_bg), vzip2q_u16(left_rx, right_rx));
 }
 
 void xrgb_from_yuv_neon(uint8_t *restrict out, const uint8_t *restrict luma, const uint8_t *restrict chroma,
                         const color_matrix_t *matrix, int32_t pairs)
 {
-    int32_t i = 0;
-    for (; i + PAIRS <= pairs; i += PAIRS) {
-        const uint8x8x2_t uv = vld2_u8(chroma + 2 * i);
-        const int16x8_t u = vreinterpretq_s16_u16(vsubl_u8(uv.val[0], vdup_n_u8(128)));
-        const int16x8_t v = vreinterpretq_s16_u16(vsubl_u8(uv.val[1], vdup_n_u8(128)));
-        const sums_t blue = product(u, matrix->blue_from_u), red = product(v, matrix->red_from_v);
-        const sums_t green = add_product(product(u, matrix->green_from_u), v, matrix->green_from_v);
-        for (int half = 0; half < 2; half++) {
-            const uint8x8_t y = vld1_u8(luma + 2 * i + 8 * half);
-            const sums_t level = product(vreinterpretq_s16_u16(vsubl_u8(y, vdup_n_u8(16))), COLOR_LUMA);
-            const uint8x8x4_t pixels = {{bytes(add_twice(&level, blue, half)), bytes(add_twice(&level, green, half)),
-                                         bytes(add_twice(&level, red, half)), vdup_n_u8(0)}};
-            vst4_u8(out + 8 * i + 32 * half, pixels);
-        }
+    const color_matrix_t m = *matrix;
+    for (; pairs >= PAIRS; pairs -= PAIRS, luma += LANES, chroma += LANES, out += 4 * LANES) {
+        const uint8x8x2_t uv = vld2_u8(chroma), y = vld2_u8(luma);
+        const int16x8_t u = scaled(uv.val[0], 128), v = scaled(uv.val[1], 128);
+        const sums_t blue = product(u, m.blue_from_u), red = product(v, m.red_from_v);
+        const sums_t green = add_product(product(u, m.green_from_u), v, m.green_from_v);
+        const sums_t left = product(scaled(y.val[0], 16), COLOR_LUMA);
+        const sums_t right = product(scaled(y.val[1], 16), COLOR_LUMA);
+        store_pairs(out, bytes(left, right, blue), bytes(left, right, green), bytes(left, right, red));
     }
-    xrgb_from_yuv_scalar(out + 8 * i, luma + 2 * i, chroma + 2 * i, matrix, pairs - i);
+    xrgb_from_yuv_scalar(out, luma, chroma, matrix, pairs);
 }
 
 void xrgb_from_rgb888_neon(uint8_t *restrict out, const uint8_t *restrict from, int32_t count)

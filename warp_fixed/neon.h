@@ -83,6 +83,16 @@ static inline int32x4_t shift_saturated(int32x4_t x, int32x4_t shift)
 #endif
 }
 
+/** @return (a + b + 2^15) / 2^16 rounded down, lane by lane; the sum must fit 32 bits. */
+static inline int16x4_t add_rounded_high(int32x4_t a, int32x4_t b)
+{
+#ifdef __aarch64__
+    return vraddhn_s32(a, b);
+#else
+    return vrshrn_n_s32(vaddq_s32(a, b), 16);
+#endif
+}
+
 /** @return a weights[2 pair] + b weights[2 pair + 1]: v is a, four values, and b. All are below 2^15. */
 NEON_INLINE uint32x4_t two_weighed(uint16x8_t v, uint16x8_t weights, int pair)
 {

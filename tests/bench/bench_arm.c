@@ -7,7 +7,9 @@
 //   grid            grid_from_homography(), then the points of every lit pixel, 64 columns at a time, stored;
 //   gauss, kaiser   prefilter_make_coefficients() of the picture with 7 taps, known before;
 //   all others      a frame of the method, as warp_frame(). bench_arm.sh leaves parts of it out, but not for frame:*.
-// FORMAT nv12 is luma and chroma of picture and panel, all per pixel of the luma.
+// FORMAT nv12 is luma and chroma of picture and panel, all per pixel of the luma. bench_arm.sh counts gray, xrgb and
+// nv12; yuyv and uyvy go to a panel of yuyv, yuyv-xrgb, nv12-xrgb, rgb888 and bgr888 to one of xrgb, for counts of
+// one's own of whole frames.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,23 +59,48 @@ static const void *find(const char *what, const char *name, const void *table, s
     exit(2);
 }
 
+/* Of picture and panel. */
+typedef struct {
+    const char *name;
+    picture_format_t picture, panel;
+} formats_t;
+
+static const formats_t formats[] = {
+    {"gray", PICTURE_GRAY8, PICTURE_GRAY8},        {"xrgb", PICTURE_XRGB8888, PICTURE_XRGB8888},
+    {"nv12", PICTURE_NV12, PICTURE_NV12},          {"nv12-xrgb", PICTURE_NV12, PICTURE_XRGB8888},
+    {"yuyv", PICTURE_YUYV, PICTURE_YUYV},          {"uyvy", PICTURE_UYVY, PICTURE_YUYV},
+    {"yuyv-xrgb", PICTURE_YUYV, PICTURE_XRGB8888}, {"rgb888", PICTURE_RGB888, PICTURE_XRGB8888},
+    {"bgr888", PICTURE_BGR888, PICTURE_XRGB8888},
+};
+
 /* A picture or panel in `bytes`. */
-static picture_t picture_in(uint8_t *bytes, const char *format)
+static picture_t picture_in(uint8_t *bytes, picture_format_t format)
 {
-    if (strcmp(format, "nv12") == 0)
-        return (picture_t){.format = PICTURE_NV12,
-                           .width = BENCH_WIDTH,
-                           .height = BENCH_HEIGHT,
-                           .data = {bytes, bytes + BENCH_PIXELS},
-                           .stride = {BENCH_WIDTH, BENCH_WIDTH}};
-    const bench_format_t *found = find("format", format, bench_formats, BENCH_FORMATS, sizeof *bench_formats);
-    const image_t image = bench_image(bytes, found->format);
-    return picture_from_image(&image);
+    static const int32_t pixel_bytes[PICTURE_FORMATS] = {4, 1, 3, 3, 2, 2, 1};
+    return (picture_t){.format = format,
+                       .width = BENCH_WIDTH,
+                       .height = BENCH_HEIGHT,
+                       .data = {bytes, bytes + BENCH_PIXELS},
+                       .stride = {BENCH_WIDTH * pixel_bytes[format], BENCH_WIDTH}};
 }
 
 static int planes_of(const picture_t *picture)
 {
     return picture_is_yuv(picture->format) ? 2 : 1;
+}
+
+/* The bytes of a picture that is no planes as a gray one's. */
+static void paint(const picture_t *picture)
+{
+    const image_t bytes = {picture->data[0], picture->stride[0], picture->height, picture->stride[0], IMAGE_GRAY8};
+    const bool is_planes =
+        picture->format == PICTURE_GRAY8 || picture->format == PICTURE_XRGB8888 || picture->format == PICTURE_NV12;
+    if (!is_planes)
+        bench_paint(&bytes);
+    for (int p = 0; is_planes && p < planes_of(picture); p++) {
+        const image_t plane = picture_plane(picture, p);
+        bench_paint(&plane);
+    }
 }
 
 static void run_grid(const warp_kernels_t *kernels, const homography_t *homography, int planes)
@@ -140,12 +167,11 @@ int main(int argc, char **argv)
         return 2;
     }
 
-    const picture_t picture = picture_in(picture_bytes, argv[2]), panel = picture_in(panel_bytes, argv[2]);
+    const formats_t *format = find("format", argv[2], formats, sizeof formats / sizeof *formats, sizeof *formats);
+    const picture_t picture = picture_in(picture_bytes, format->picture);
+    const picture_t panel = picture_in(panel_bytes, format->panel);
     const homography_t homography = bench_homography(pose->rows);
-    for (int p = 0; p < planes_of(&picture); p++) {
-        const image_t plane = picture_plane(&picture, p);
-        bench_paint(&plane);
-    }
+    paint(&picture);
     bool made = true;
     if (work->method != NULL)
         made = run_frame(kernels, &homography, &picture, &panel, work->method);
