@@ -7,6 +7,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #ifdef __aarch64__
 #include <arm_neon.h>
@@ -49,6 +50,20 @@ static inline size_t stored_offset(const uint32_t *number)
     size_t offset = *number;
     __asm__("" : "+r"(offset));
     return offset;
+}
+
+/** @return Four bytes, at any address; what follows them in the vector is not to be used. */
+static inline uint8x16_t load_word(const uint8_t *bytes)
+{
+    uint32_t word;
+    memcpy(&word, bytes, sizeof word);
+#if defined(__aarch64__) && !defined(__clang__)
+    uint8x16_t vector; /* gcc would make a vector of zeros for each word first */
+    __asm__("" : "=w"(vector) : "0"(vcreate_u8(word)));
+    return vector;
+#else
+    return vreinterpretq_u8_u32(vsetq_lane_u32(word, vdupq_n_u32(0), 0));
+#endif
 }
 
 /** @return Four bytes, each of them in all lanes of one vector. */

@@ -136,6 +136,7 @@ void resample_window_gray_neon(const patch_t *patch, const window_t *window)
             loop.weigh = resample_linear_gray_neon;
             loop.taps_x = WINDOW_MIN_TAPS;
             loop.step = RESAMPLE_LINEAR_STEP;
+            loop.paired = true;
         } else if (window_is_cubic(window)) {
             loop.weigh = resample_cubic_gray_neon;
             loop.centred = false;

@@ -5,13 +5,9 @@
 #include <string.h>
 
 #include "warp_fixed/fixed.h"
+#include "warp_fixed/window_copy_neon.h"
 
-enum { EDGE_WIDTH = 32, COPY_ROWS = 72, VECTOR = 16, STRIP_VECTORS = 4 };
-
-/* Texels that the windows of a patch read along one axis: [begin, end). */
-typedef struct {
-    int32_t begin, end;
-} reach_t;
+enum { EDGE_WIDTH = 32 };
 
 /* What a point needs added so that its whole part is the window's begin: see window_place(). */
 static int32_t start_q18(const window_axis_t *axis)
@@ -36,55 +32,10 @@ static reach_t reach_of(const patch_t *patch, const int32_t *point_q18, int32_t 
                      (int32_t)floor_shift(most, GRID_FRACTION_BITS) + taps};
 }
 
-static bool is_inside(reach_t reach, int32_t size)
-{
-    return reach.begin >= 0 && reach.end <= size;
-}
-
 bool points_inside(const patch_t *patch, int32_t width, int32_t height)
 {
-    return is_inside(reach_of(patch, patch->x_q18, 0, 1), width) &&
-           is_inside(reach_of(patch, patch->y_q18, 0, 1), height);
-}
-
-/* Copy that part of the picture, and its mirror images where it reaches beyond. */
-static void copy_mirrored(uint8_t *to, const texels_t *from, reach_t x, reach_t y)
-{
-    const int32_t bytes = from->texel_bytes;
-    const int32_t first = clamp_i32(0, x.begin, x.end), last = clamp_i32(from->width, first, x.end);
-    for (int32_t v = y.begin; v < y.end; v++, to += COPY_STRIDE) {
-        const uint8_t *row = from->data + mirror_index(v, from->height) * from->stride;
-        for (int32_t u = x.begin; u < first; u++)
-            memcpy(to + (u - x.begin) * bytes, row + mirror_index(u, from->width) * bytes, (size_t)bytes);
-        if (first < last)
-            memcpy(to + (first - x.begin) * bytes, row + first * bytes, (size_t)((last - first) * bytes));
-        for (int32_t u = last; u < x.end; u++)
-            memcpy(to + (u - x.begin) * bytes, row + mirror_index(u, from->width) * bytes, (size_t)bytes);
-    }
-}
-
-/* Rows of so many vectors, less 128. May be in place. */
-NEON_INLINE void centre_strip(uint8_t *to, const uint8_t *from, ptrdiff_t stride, int32_t rows, int vectors)
-{
-    for (int32_t v = 0; v < rows; v++, to += COPY_STRIDE, from += stride)
-        for (int i = 0; i < vectors; i++)
-            vst1q_u8(to + VECTOR * i, veorq_u8(vld1q_u8(from + VECTOR * i), vdupq_n_u8(128)));
-}
-
-/* Columns of cache lines, one after the other. */
-static void centre(uint8_t *to, const uint8_t *from, ptrdiff_t stride, int32_t rows, int32_t vectors)
-{
-    for (; vectors >= STRIP_VECTORS; vectors -= STRIP_VECTORS) {
-        centre_strip(to, from, stride, rows, STRIP_VECTORS);
-        to += STRIP_VECTORS * VECTOR;
-        from += STRIP_VECTORS * VECTOR;
-    }
-    if (vectors == 3)
-        centre_strip(to, from, stride, rows, 3);
-    else if (vectors == 2)
-        centre_strip(to, from, stride, rows, 2);
-    else if (vectors == 1)
-        centre_strip(to, from, stride, rows, 1);
+    return reach_is_inside(reach_of(patch, patch->x_q18, 0, 1), width) &&
+           reach_is_inside(reach_of(patch, patch->y_q18, 0, 1), height);
 }
 
 /* What the pieces of a call share. */
@@ -150,32 +101,13 @@ static void weigh_in(const call_t *call, const patch_t *patch, const window_sour
     }
 }
 
-static int32_t vectors_of(const texels_t *texels, reach_t x)
-{
-    return ((x.end - x.begin) * texels->texel_bytes + VECTOR - 1) / VECTOR;
-}
-
 /* Apart from its callers, whose frames would hold this buffer several times over. */
 static __attribute__((noinline)) void weigh_copy(const call_t *call, const patch_t *patch, reach_t x, reach_t y)
 {
     uint8_t copy[COPY_ROWS * COPY_STRIDE];
-    const texels_t *texels = call->texels;
-    const int32_t vectors = vectors_of(texels, x), rows = y.end - y.begin, first = x.begin * texels->texel_bytes;
-    const bool inside = x.begin >= 0 && first + vectors * VECTOR <= texels->width * texels->texel_bytes;
-    if (call->loop->centred && inside && is_inside(y, texels->height)) {
-        centre(copy, texels->data + y.begin * texels->stride + first, texels->stride, rows, vectors);
-    } else {
-        copy_mirrored(copy, texels, x, y);
-        if (call->loop->centred)
-            centre(copy, copy, COPY_STRIDE, rows, vectors);
-    }
+    copy_texels(copy, call->texels, call->loop, x, y);
     const window_source_t source = source_from(call, copy, COPY_STRIDE, x.begin, y.begin);
     weigh_in(call, patch, &source);
-}
-
-static bool fits_copy(const texels_t *texels, reach_t x, reach_t y)
-{
-    return vectors_of(texels, x) * VECTOR <= COPY_STRIDE && y.end - y.begin <= COPY_ROWS;
 }
 
 /* Two halves of a patch of more than one pixel; the longer side is cut. */
@@ -203,7 +135,7 @@ static void halve(patch_t half[2], const patch_t *patch, int32_t pixel_bytes)
 static void weigh_copies(const call_t *call, const patch_t *patch)
 {
     const reach_t x = columns_of(call, patch), y = rows_of(call, patch);
-    if (fits_copy(call->texels, x, y)) {
+    if (copy_fits(call->texels, call->loop, x, y)) {
         weigh_copy(call, patch, x, y);
         return;
     }
@@ -240,9 +172,9 @@ static __attribute__((noinline)) void weigh_edge(const call_t *call, const patch
 static void weigh_pieces(const call_t *call, const patch_t *patch)
 {
     const texels_t *texels = call->texels;
-    const bool inside =
-        is_inside(columns_of(call, patch), texels->width) && is_inside(rows_of(call, patch), texels->height);
-    if (inside && call->loop->centred) {
+    const bool inside = reach_is_inside(columns_of(call, patch), texels->width) &&
+                        reach_is_inside(rows_of(call, patch), texels->height);
+    if (inside && (call->loop->centred || call->loop->paired)) {
         weigh_copies(call, patch);
     } else if (inside) {
         const window_source_t source = source_from(call, texels->data, texels->stride, 0, 0);

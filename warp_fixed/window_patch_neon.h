@@ -2,7 +2,8 @@
 // Patches whose windows need no checks: those inside the picture, and copies of its edge continued by mirroring.
 //
 // Loops with negative weights read copies only, whose bytes are less 128, as signed ones: the copy costs some two
-// instructions a pixel, and saves one for each vector of texels and the addresses of all rows but the first.
+// instructions a pixel, and saves one for each vector of texels and the addresses of all rows but the first. Linear
+// interpolation of gray pixels reads copies too, of pairs (resample_linear_neon.c).
 #ifndef WARP_FIXED_WINDOW_PATCH_NEON_H
 #define WARP_FIXED_WINDOW_PATCH_NEON_H
 
@@ -51,6 +52,8 @@ typedef struct {
     int32_t pixel_bytes;    /**< that it writes for a pixel */
     int32_t step;           /**< pixels that it makes at once; PATCH_MAX_STEP at most */
     bool centred;           /**< it reads bytes less 128, and a source's stride is COPY_STRIDE */
+    bool paired;            /**< a texel is a byte, followed by the one below, twice as far from its row's begin as in
+                                 a picture; rows have COPY_STRIDE bytes, and so less than 512 texels */
 } patch_loop_t;
 
 /** @return Is it at most WINDOW_SHORT_TAPS long along both axes, and so at level 0? */

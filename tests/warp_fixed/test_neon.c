@@ -37,6 +37,10 @@ static void halves(void **state)
               vreinterpretq_u8_s32(vcombine_s32(vreinterpret_s32_u8(low), vreinterpret_s32_u8(high))));
         check(&r, "vcombine_s64",
               vreinterpretq_u8_s64(vcombine_s64(vreinterpret_s64_u8(low), vreinterpret_s64_u8(high))));
+        memset(r.expected.u8 + 4, 0, 4);
+        memcpy(r.expected.u8, r.a.u8 + 3, 4);
+        check_half(&r, "load_word",
+                   vreinterpret_u8_u32(vset_lane_u32(0, vreinterpret_u32_u8(vget_low_u8(load_word(r.a.u8 + 3))), 1)));
         r.expected = r.a;
         uint32_t numbers[4];
         vst1q_u32(numbers, vreinterpretq_u32_u8(a));

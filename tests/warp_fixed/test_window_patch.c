@@ -39,13 +39,22 @@ static uint32_t hash_texel(uint32_t hash, const uint8_t *texel, int32_t bytes, u
     return hash;
 }
 
+/* A texel of a source. Of pairs, a window's last row is read from beside the one above. */
+static const uint8_t *texel_at(const bench_t *bench, const window_source_t *source, int32_t u, int32_t v, bool last)
+{
+    const int32_t bytes = bench->texels.texel_bytes;
+    if (!bench->loop.paired)
+        return source->data + v * source->stride + u * bytes;
+    return source->data + (last ? v - 1 : v) * source->stride + 2 * u + (last ? 1 : 0);
+}
+
 static void hash_windows(const patch_t *patch, const window_t *window, const window_source_t *source)
 {
     const bench_t *bench = (const bench_t *)window;
     const int32_t bytes = bench->texels.texel_bytes;
     assert_true(patch->width > 0 && patch->width % bench->loop.step == 0 && patch->width <= PATCH_MAX_WIDTH);
     assert_true(patch->height > 0 && patch->height <= PATCH_MAX_HEIGHT);
-    assert_true(!bench->loop.centred || source->stride == COPY_STRIDE);
+    assert_true(!(bench->loop.centred || bench->loop.paired) || source->stride == COPY_STRIDE);
     bench->tally->calls++;
     bench->tally->pixels += patch->width * patch->height;
     bench->tally->in_place += source->data == bench->texels.data;
@@ -56,7 +65,7 @@ static void hash_windows(const patch_t *patch, const window_t *window, const win
             uint32_t hash = 0;
             for (int32_t v = y; v < y + bench->loop.taps_y; v++)
                 for (int32_t u = x; u < x + bench->loop.taps_x; u++)
-                    hash = hash_texel(hash, source->data + v * source->stride + u * bytes, bytes, 0);
+                    hash = hash_texel(hash, texel_at(bench, source, u, v, v == y + bench->loop.taps_y - 1), bytes, 0);
             memcpy(patch->out + r * patch->stride + k * HASH_BYTES, &hash, HASH_BYTES);
         }
     }
@@ -82,7 +91,9 @@ static uint32_t expected_hash(const bench_t *bench, int32_t x_q18, int32_t y_q18
 static bench_t new_bench(int32_t width, int32_t height, tally_t *tally, rng_t *rng)
 {
     static const int32_t bytes_of[4] = {1, 2, 4, 8};
-    const int32_t bytes = bytes_of[rng_int(rng, 0, 3)], stride = width * bytes + (int32_t)rng_int(rng, 0, 9);
+    const bool centred = rng_int(rng, 0, 1), paired = !centred && rng_int(rng, 0, 1);
+    const int32_t bytes = paired ? 1 : bytes_of[rng_int(rng, 0, 3)],
+                  stride = width * bytes + (int32_t)rng_int(rng, 0, 9);
     const size_t size = (size_t)(stride * (height - 1) + width * bytes);
     uint8_t *data = malloc(size);
     assert_non_null(data);
@@ -92,10 +103,11 @@ static bench_t new_bench(int32_t width, int32_t height, tally_t *tally, rng_t *r
         .texels = {data, width, height, stride, bytes},
         .loop = {.weigh = hash_windows,
                  .taps_x = (int32_t)rng_int(rng, 1, WINDOW_SHORT_TAPS),
-                 .taps_y = (int32_t)rng_int(rng, 1, WINDOW_SHORT_TAPS),
+                 .taps_y = (int32_t)rng_int(rng, paired ? 2 : 1, WINDOW_SHORT_TAPS),
                  .pixel_bytes = HASH_BYTES,
                  .step = rng_int(rng, 0, 1) ? PATCH_STEP : PATCH_MAX_STEP,
-                 .centred = rng_int(rng, 0, 1)},
+                 .centred = centred,
+                 .paired = paired},
         .tally = tally,
     };
     bench.window.x = (window_axis_t){.first = no_weights, .second = no_weights};
@@ -142,10 +154,10 @@ static tally_t check_patch(bench_t *bench, const pose_of_patch_t *pose)
     weigh_anywhere(&patch, &bench->window, &bench->texels, &bench->loop);
     if (memcmp(found, expected, size) != 0)
         fail_msg("picture %d x %d of %d bytes a texel, patch %d x %d about (%.3f, %.3f), scale %.3f, turn %.3f, "
-                 "taps %d x %d, step %d, centred %d",
+                 "taps %d x %d, step %d, centred %d, paired %d",
                  bench->texels.width, bench->texels.height, bench->texels.texel_bytes, pose->width, pose->height,
                  pose->x, pose->y, pose->scale, pose->turn, bench->loop.taps_x, bench->loop.taps_y, bench->loop.step,
-                 bench->loop.centred);
+                 bench->loop.centred, bench->loop.paired);
     free(found);
     free(expected);
     return *bench->tally;
@@ -178,7 +190,7 @@ static void patches_read_their_windows_anywhere(void **state)
 }
 
 /* Well within the picture, loops read it as it is, without a copy, and each pixel once; but for those of bytes less
- * 128. */
+ * 128, and of pairs. */
 static void patches_inside_are_read_in_place(void **state)
 {
     (void)state;
@@ -189,31 +201,36 @@ static void patches_inside_are_read_in_place(void **state)
         const tally_t found = check_patch(&bench, &(pose_of_patch_t){64, 16, 100, 60, 1, 0});
         assert_int_equal(found.calls, 1);
         assert_int_equal(found.pixels, 64 * 16);
-        assert_int_equal(found.in_place, !bench.loop.centred);
+        assert_int_equal(found.in_place, !bench.loop.centred && !bench.loop.paired);
         free_bench(&bench);
     }
 }
 
-/* What a copy of 72 rows of 832 bytes cannot hold is read in halves, and their halves; the longer side is cut. */
+/* What a copy of 72 rows of 832 bytes, or 416 pairs, cannot hold is read in halves, and their halves; the longer side
+ * is cut. */
 static void patches_that_read_more_than_a_copy_are_halved(void **state)
 {
     (void)state;
     static const struct {
         pose_of_patch_t pose;
         int32_t texel_bytes, calls;
+        bool paired;
     } cases[] = {
-        {{64, 16, 300, 200, 1, 0}, 8, 1},      /* some 72 texels of 8 bytes */
-        {{64, 16, 300, 200, 1.7, 0}, 8, 2},    /* more than 107 of them: 856 bytes */
-        {{64, 16, 300, 200, 4, 0}, 4, 2},      /* more than 252 texels of 4 bytes */
-        {{64, 16, 300, 200, 4, 1.5708}, 4, 4}, /* more than 252 rows */
-        {{16, 16, 300, 200, 8, 0}, 1, 2},      /* more than 120 rows: a square is cut into an upper and a lower half */
-        {{1, 1, 300, 200, 8, 0}, 8, 1},
+        {{64, 16, 300, 200, 1, 0}, 8, 1, false},      /* some 72 texels of 8 bytes */
+        {{64, 16, 300, 200, 1.7, 0}, 8, 2, false},    /* more than 107 of them: 856 bytes */
+        {{64, 16, 300, 200, 4, 0}, 4, 2, false},      /* more than 252 texels of 4 bytes */
+        {{64, 16, 300, 200, 4, 1.5708}, 4, 4, false}, /* more than 252 rows */
+        {{16, 16, 300, 200, 8, 0}, 1, 2, false},      /* more than 120 rows: a square is cut across */
+        {{1, 1, 300, 200, 8, 0}, 8, 1, false},        /* one window */
+        {{64, 8, 300, 200, 6, 0}, 1, 1, true},        /* some 387 pairs */
+        {{64, 8, 300, 200, 7, 0}, 1, 2, true},        /* more than 441 pairs */
     };
     tally_t tally;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         rng_t rng = {i};
         bench_t bench = new_bench(600, 400, &tally, &rng);
-        while (bench.texels.texel_bytes != cases[i].texel_bytes || !bench.loop.centred || bench.loop.taps_x < 7) {
+        while (bench.texels.texel_bytes != cases[i].texel_bytes || bench.loop.taps_x < 7 ||
+               bench.loop.paired != cases[i].paired || bench.loop.centred == cases[i].paired) {
             free_bench(&bench);
             bench = new_bench(600, 400, &tally, &rng);
         }
@@ -222,16 +239,17 @@ static void patches_that_read_more_than_a_copy_are_halved(void **state)
     }
 }
 
-/* Rows of texels that just fill a copy's, and those that just do not. */
+/* Rows of texels that just fill a copy's, and those that just do not; of pairs, in patches that have few rows. */
 static void patches_that_fill_a_copy_are_right(void **state)
 {
     (void)state;
     tally_t tally;
     rng_t rng = {1};
     for (int32_t n = 0; n < 400; n++) {
-        bench_t bench = new_bench(300, 200, &tally, &rng);
-        const double bytes = rng_double(&rng, 760, 860);
-        const pose_of_patch_t pose = {64, 16, 150, 100, bytes / bench.texels.texel_bytes / 64, 0};
+        bench_t bench = new_bench(420, 200, &tally, &rng);
+        const double bytes = rng_double(&rng, 760, 860) / (bench.loop.paired ? 2 : 1);
+        const pose_of_patch_t pose = {64, bench.loop.paired ? 8 : 16, 210, 100, bytes / bench.texels.texel_bytes / 64,
+                                      0};
         (void)check_patch(&bench, &pose);
         free_bench(&bench);
     }

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copies of the part of a picture that the windows of a patch read, continued by mirroring and laid out for the loop.
+#include "warp_fixed/window_copy_neon.h"
+
+#include <string.h>
+
+#include "warp_fixed/fixed.h"
+
+enum { STRIP_VECTORS = 4 };
+
+/* Copy that part of the picture, and its mirror images where it reaches beyond. Apart from its caller, whose loops need
+ * the registers. */
+static __attribute__((noinline)) void copy_mirrored(uint8_t *to, const texels_t *from, reach_t x, reach_t y)
+{
+    const int32_t bytes = from->texel_bytes;
+    const int32_t first = clamp_i32(0, x.begin, x.end), last = clamp_i32(from->width, first, x.end);
+    for (int32_t v = y.begin; v < y.end; v++, to += COPY_STRIDE) {
+        const uint8_t *row = from->data + mirror_index(v, from->height) * from->stride;
+        for (int32_t u = x.begin; u < first; u++)
+            memcpy(to + (u - x.begin) * bytes, row + mirror_index(u, from->width) * bytes, (size_t)bytes);
+        if (first < last)
+            memcpy(to + (first - x.begin) * bytes, row + first * bytes, (size_t)((last - first) * bytes));
+        for (int32_t u = last; u < x.end; u++)
+            memcpy(to + (u - x.begin) * bytes, row + mirror_index(u, from->width) * bytes, (size_t)bytes);
+    }
+}
+
+/* Rows of so many vectors, less 128. May be in place. */
+NEON_INLINE void centre_strip(uint8_t *to, const uint8_t *from, ptrdiff_t stride, int32_t rows, int vectors)
+{
+    for (int32_t v = 0; v < rows; v++, to += COPY_STRIDE, from += stride)
+        for (int i = 0; i < vectors; i++)
+            vst1q_u8(to + COPY_VECTOR * i, veorq_u8(vld1q_u8(from + COPY_VECTOR * i), vdupq_n_u8(128)));
+}
+
+/* Columns of cache lines, one after the other. */
+static void centre(uint8_t *to, const uint8_t *from, ptrdiff_t stride, int32_t rows, int32_t vectors)
+{
+    for (; vectors >= STRIP_VECTORS; vectors -= STRIP_VECTORS) {
+        centre_strip(to, from, stride, rows, STRIP_VECTORS);
+        to += STRIP_VECTORS * COPY_VECTOR;
+        from += STRIP_VECTORS * COPY_VECTOR;
+    }
+    if (vectors == 3)
+        centre_strip(to, from, stride, rows, 3);
+    else if (vectors == 2)
+        centre_strip(to, from, stride, rows, 2);
+    else if (vectors == 1)
+        centre_strip(to, from, stride, rows, 1);
+}
+
+/* Rows of so many vectors, each byte followed by the one below. */
+NEON_INLINE void pair_strip(uint8_t *to, const uint8_t *from, ptrdiff_t stride, int32_t rows, int vectors)
+{
+    for (int32_t v = 0; v < rows; v++, to += COPY_STRIDE, from += stride) {
+        uint8x16_t above[STRIP_VECTORS], below[STRIP_VECTORS];
+        for (int i = 0; i < vectors; i++) {
+            above[i] = vld1q_u8(from + COPY_VECTOR * i);
+            below[i] = vld1q_u8(from + stride + COPY_VECTOR * i);
+        }
+        for (int i = 0; i < vectors; i++) {
+            vst1q_u8(to + 2 * COPY_VECTOR * i, vzip1q_u8(above[i], below[i]));
+            vst1q_u8(to + 2 * COPY_VECTOR * i + COPY_VECTOR, vzip2q_u8(above[i], below[i]));
+        }
+    }
+}
+
+static void pair(uint8_t *to, const uint8_t *from, ptrdiff_t stride, int32_t rows, int32_t vectors)
+{
+    for (; vectors >= STRIP_VECTORS; vectors -= STRIP_VECTORS) {
+        pair_strip(to, from, stride, rows, STRIP_VECTORS);
+        to += 2 * STRIP_VECTORS * COPY_VECTOR;
+        from += STRIP_VECTORS * COPY_VECTOR;
+    }
+    if (vectors == 3)
+        pair_strip(to, from, stride, rows, 3);
+    else if (vectors == 2)
+        pair_strip(to, from, stride, rows, 2);
+    else if (vectors == 1)
+        pair_strip(to, from, stride, rows, 1);
+}
+
+/* Where a copy can be made from without mirroring: rows of the picture in which whole vectors can be read. */
+static bool copies_picture(const texels_t *texels, reach_t x, reach_t y)
+{
+    const int32_t end = x.begin * texels->texel_bytes + copy_vectors(texels, x) * COPY_VECTOR;
+    return x.begin >= 0 && end <= texels->width * texels->texel_bytes && reach_is_inside(y, texels->height);
+}
+
+static const uint8_t *texel_of(const texels_t *texels, reach_t x, reach_t y)
+{
+    return texels->data + y.begin * texels->stride + x.begin * texels->texel_bytes;
+}
+
+static void copy_centred(uint8_t *copy, const texels_t *texels, reach_t x, reach_t y)
+{
+    const int32_t vectors = copy_vectors(texels, x), rows = y.end - y.begin;
+    if (copies_picture(texels, x, y)) {
+        centre(copy, texel_of(texels, x, y), texels->stride, rows, vectors);
+    } else {
+        copy_mirrored(copy, texels, x, y);
+        centre(copy, copy, COPY_STRIDE, rows, vectors);
+    }
+}
+
+/* From the right halves of the copy's own rows, at the worst: no byte is written before it was read. */
+static void copy_paired(uint8_t *copy, const texels_t *texels, reach_t x, reach_t y)
+{
+    const int32_t vectors = copy_vectors(texels, x), rows = y.end - y.begin - 1;
+    if (copies_picture(texels, x, y)) {
+        pair(copy, texel_of(texels, x, y), texels->stride, rows, vectors);
+    } else {
+        copy_mirrored(copy + COPY_STRIDE / 2, texels, x, y);
+        pair(copy, copy + COPY_STRIDE / 2, COPY_STRIDE, rows, vectors);
+    }
+}
+
+void copy_texels(uint8_t *copy, const texels_t *texels, const patch_loop_t *loop, reach_t x, reach_t y)
+{
+    if (loop->centred)
+        copy_centred(copy, texels, x, y);
+    else if (loop->paired)
+        copy_paired(copy, texels, x, y);
+    else
+        copy_mirrored(copy, texels, x, y);
+}
