@@ -64,6 +64,12 @@ ladder_t ladder_of(const warp_method_t *method)
     return ladder;
 }
 
+bool ladder_needs_step(const ladder_t *ladder)
+{
+    const warp_method_t *best = ladder->method[0]; /* the only one that filters or chooses */
+    return best->filter != WARP_FILTER_NONE || best->resampler == WARP_AUTO;
+}
+
 /* In tenths of an instruction. */
 static uint64_t per_picture_pixel(const warp_method_t *method, warp_resampler_t resampler, uint32_t k_q16)
 {

@@ -3,6 +3,7 @@
 #ifndef FIRMWARE_LADDER_H
 #define FIRMWARE_LADDER_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "warp_fixed/method.h"
@@ -29,6 +30,9 @@ typedef struct {
  * @param method  Of warp_methods.
  */
 ladder_t ladder_of(const warp_method_t *method);
+
+/** @return Does the cost of any of its methods depend on a frame's step? */
+bool ladder_needs_step(const ladder_t *ladder);
 
 /** What the work of a frame depends on. */
 typedef struct {

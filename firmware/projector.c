@@ -154,6 +154,8 @@ static void choose_method(projector_t *p, int64_t time_us)
     if (!p->report.corrected || !p->report.times.shown ||
         p->report.warp.lit_pixels < panel_pixels / PROJECTOR_JUDGED_LIT)
         return;
+    if (ladder_needs_step(&p->ladder))
+        warp_report_step(&p->warp, &p->report.warp);
     const ladder_frame_t work = {
         .lit_pixels = p->report.warp.lit_pixels,
         .picture_pixels = p->camera.width * p->camera.height,

@@ -71,6 +71,7 @@ static uint32_t pose_age_ms(const projector_t *p, int64_t now_us)
 static void send_status(projector_t *p, int64_t now_us)
 {
     telemetry_t *t = &p->telemetry;
+    warp_report_step(&p->warp, &p->report.warp);
     const int32_t step_q16 = p->warp.step_all ? p->report.warp.k_all_q16 : p->report.warp.k_in_q16;
     const can_status_t status = {
         .node = (uint8_t)p->node,

@@ -135,6 +135,8 @@ bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *repo
     const picture_t to = picture_from_image(panel), from = picture_from_image(picture);
     if (!warp_plan(warp, kernels, report, homography, &to, &from))
         return false;
+    if (report != NULL)
+        warp_report_step(warp, report);
     for (warp_step_t step = WARP_TAKE; step <= WARP_DRAW; step++)
         if (warp_needs(warp, step))
             warp_work(warp, step, only_worker);

@@ -69,6 +69,9 @@ typedef struct {
     const warp_kernels_t *kernels;          /**< of the present frame */
     picture_t panel, picture;
     int32_t planes;
+    homography_t homography;
+    bool step_known; /**< else the frame did not need it */
+    footprint_step_t step;
     bool any_lit;
     bool filtered;      /**< read is what the prefilter makes of the picture */
     int32_t unit_bands; /**< bands are dealt in units of so many of plane 0, and one of plane 1 */
@@ -86,7 +89,7 @@ typedef struct {
 
 /** What a frame turned out to be, for telemetry and evaluation. */
 typedef struct {
-    int32_t k_in_q16;           /**< step k over pixels in the picture (eq 4, 5); 0 when none is */
+    int32_t k_in_q16;           /**< step k over pixels in the picture (eq 4, 5); 0 when none is, and when not known */
     int32_t k_all_q16;          /**< step k over the whole wall; saturates when part of it is behind the viewer */
     int32_t lit_pixels;         /**< panel pixels that show picture */
     warp_resampler_t resampler; /**< that was used: the method's, or WARP_AUTO's choice */
@@ -159,6 +162,14 @@ typedef enum {
 bool warp_plan(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *report, const homography_t *homography,
                const picture_t *panel, const picture_t *picture);
 
+/**
+ * Fill in step k of the last plan, which warp_plan() works out only for methods that filter, make splines or fit: it
+ * takes some 200 instructions for each row and column of the panel.
+ *
+ * @param[in,out] report  Its two steps are written; 0 before the first plan.
+ */
+void warp_report_step(const warp_t *warp, warp_report_t *report);
+
 /** @return Is there anything to do in this step of the present frame? */
 bool warp_needs(const warp_t *warp, warp_step_t step);
 
@@ -168,7 +179,7 @@ bool warp_needs(const warp_t *warp, warp_step_t step);
  */
 void warp_work(warp_t *warp, warp_step_t step, worker_t worker);
 
-/** Make one frame of gray or XRGB8888 images with one worker: warp_plan() and all its steps. */
+/** Make one frame of gray or XRGB8888 images with one worker: warp_plan() and all its steps; the report has step k. */
 bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *report, const homography_t *homography,
                 const image_t *panel, const image_t *picture);
 

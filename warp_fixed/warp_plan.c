@@ -106,14 +106,29 @@ static void plan_pictures(warp_t *warp, int32_t k_q16)
                      prefilter_begin(&warp->prefilter, warp->method.filter, k_q16, warp_splines(warp->resampler));
 }
 
+/* @return The step that the frame is made for; 0 for methods that do not need it. */
+static int32_t plan_step(warp_t *warp, const homography_t *homography)
+{
+    warp->homography = *homography;
+    warp->step_known = warp->filters || warp->method.resampler == WARP_LS;
+    warp->step = warp->step_known ? footprint_step(homography) : (footprint_step_t){0, 0};
+    return warp->step_all ? warp->step.all_q16 : warp->step.in_q16;
+}
+
+void warp_report_step(const warp_t *warp, warp_report_t *report)
+{
+    const footprint_step_t step = warp->step_known ? warp->step : footprint_step(&warp->homography);
+    report->k_in_q16 = step.in_q16;
+    report->k_all_q16 = step.all_q16;
+}
+
 bool warp_plan(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *report, const homography_t *homography,
                const picture_t *panel, const picture_t *picture)
 {
     if (!pictures_fit(homography, panel, picture))
         return false;
 
-    const footprint_step_t step = footprint_step(homography);
-    const int32_t k_q16 = warp->step_all ? step.all_q16 : step.in_q16;
+    const int32_t k_q16 = plan_step(warp, homography);
     if (warp->method.resampler == WARP_AUTO)
         warp->resampler = warp_resampler_for_step(warp->resampler, k_q16);
     warp->kernels = kernels;
@@ -132,6 +147,6 @@ bool warp_plan(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *repor
     const int32_t lit = plan_units(warp);
     plan_pictures(warp, k_q16);
     if (report != NULL)
-        *report = (warp_report_t){step.in_q16, step.all_q16, lit, warp->resampler};
+        *report = (warp_report_t){warp->step.in_q16, warp->step.all_q16, lit, warp->resampler};
     return true;
 }

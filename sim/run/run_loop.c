@@ -78,7 +78,9 @@ static bool make_step(run_loop_t *loop, int64_t now_us)
     record_bus(loop, frame);
     for (int32_t i = 0; i < record->boards; i++) {
         run_wall_t *wall = &record->wall[(record->frames - 1) * record->boards + i];
-        wall->report = sim_world_projector(loop->world, i)->report;
+        const projector_t *projector = sim_world_projector(loop->world, i);
+        wall->report = projector->report;
+        warp_report_step(&projector->warp, &wall->report.warp);
         wall->step_time_us = sim_world_step_time_us(loop->world, i);
         if (wall->report.corrected && !frame->seen) {
             frame->seen = true;

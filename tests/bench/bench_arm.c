@@ -6,7 +6,9 @@
 // Picture and poses are those of workload.h. What is between the markers:
 //   grid            grid_from_homography(), then the points of every lit pixel, 64 columns at a time, stored;
 //   gauss, kaiser   prefilter_make_coefficients() of the picture with 7 taps, known before;
-//   all others      a frame of the method, as warp_frame(). bench_arm.sh leaves parts of it out, but not for frame:*.
+//   all others      a frame of the method, as the firmware makes most of them: without step k where the method has no
+//                   filter, for its status needs it ten times a second only. bench_arm.sh leaves parts of the frame
+//                   out, but not for frame:*.
 // FORMAT nv12 is luma and chroma of picture and panel, all per pixel of the luma. bench_arm.sh counts gray, xrgb and
 // nv12; yuyv and uyvy go to a panel of yuyv, yuyv-xrgb, nv12-xrgb, rgb888 and bgr888 to one of xrgb, for counts of
 // one's own of whole frames.

@@ -75,6 +75,22 @@ static void test_costs_fit_at_the_largest_sizes(void **state)
     }
 }
 
+/* Else the firmware leaves the step out. */
+static void test_steps_are_asked_for_where_they_cost(void **state)
+{
+    (void)state;
+    for (int i = 0; i < WARP_METHODS; i++) {
+        const ladder_t ladder = ladder_of(&warp_methods[i]);
+        bool differs = false;
+        for (int32_t step = 0; step < ladder.steps; step++)
+            differs |= ladder_cost(ladder.method[step], &(ladder_frame_t){FULL_HD, FULL_HD, 0}) !=
+                       ladder_cost(ladder.method[step], &(ladder_frame_t){FULL_HD, FULL_HD, 3 << 16});
+        if (ladder_needs_step(&ladder) != differs)
+            fail_msg("%s: a step that %s is %sasked for", warp_methods[i].name, differs ? "costs" : "costs nothing",
+                     differs ? "not " : "");
+    }
+}
+
 static void test_a_warp_is_ready_for_every_ladder(void **state)
 {
     (void)state;
@@ -142,9 +158,12 @@ static void test_costs_are_those_counted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_what_stands_in_for_what),        cmocka_unit_test(test_each_step_is_cheaper),
-        cmocka_unit_test(test_costs_fit_at_the_largest_sizes), cmocka_unit_test(test_a_warp_is_ready_for_every_ladder),
+        cmocka_unit_test(test_what_stands_in_for_what),
+        cmocka_unit_test(test_each_step_is_cheaper),
+        cmocka_unit_test(test_costs_fit_at_the_largest_sizes),
+        cmocka_unit_test(test_a_warp_is_ready_for_every_ladder),
         cmocka_unit_test(test_costs_are_those_counted),
+        cmocka_unit_test(test_steps_are_asked_for_where_they_cost),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -75,6 +75,17 @@ static void test_camera_unplugged_keeps_the_last_picture_then_goes_safe(void **s
     assert_well_again();
 }
 
+/* Though the method does not need it. Poses of a tenth of a second may come after the last status. */
+static void test_the_status_tells_the_step(void **state)
+{
+    (void)state;
+    start_running();
+    assert_false(projector()->warp.step_known);
+    const int32_t step_q8 = footprint_step(&projector()->warp.homography).in_q16 >> 8;
+    assert_true(step_q8 > 64);
+    assert_in_range(bench.voice[0].status.step_q8, step_q8 - step_q8 / 20, step_q8 + step_q8 / 20);
+}
+
 static void test_pictures_of_a_wrong_size_are_counted_and_not_shown(void **state)
 {
     (void)state;
@@ -111,6 +122,7 @@ int main(void)
                                         close_bench),
         cmocka_unit_test_setup_teardown(test_camera_unplugged_keeps_the_last_picture_then_goes_safe, open_bench,
                                         close_bench),
+        cmocka_unit_test_setup_teardown(test_the_status_tells_the_step, open_bench, close_bench),
         cmocka_unit_test_setup_teardown(test_pictures_of_a_wrong_size_are_counted_and_not_shown, open_bench,
                                         close_bench),
     };

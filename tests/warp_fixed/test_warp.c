@@ -138,6 +138,39 @@ static void identity_is_unchanged(void **state)
     free(picture.memory);
 }
 
+/* Step k is worked out for methods that need it, and for whoever asks. */
+static void steps_are_known_to_who_asks(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 100; seed++) {
+        const warp_method_t *method = &warp_methods[seed % WARP_METHODS];
+        const bool needed = method->filter != WARP_FILTER_NONE || warp_splines(method->resampler) ||
+                            method->resampler == WARP_LS || method->resampler == WARP_AUTO;
+        rng_t rng = {seed};
+        homography_t h;
+        random_frame(&h, &rng);
+        const footprint_step_t step = footprint_step(&h);
+        guarded_t images[2] = {guarded(h.panel_width, h.panel_height, IMAGE_GRAY8),
+                               guarded(h.picture_width, h.picture_height, IMAGE_GRAY8)};
+        const picture_t panel = picture_from_image(&images[0].image), picture = picture_from_image(&images[1].image);
+        warp_report_t report = {.k_in_q16 = 1, .k_all_q16 = 1};
+        warp_init(&warp, *method, false, border);
+        warp_report_step(&warp, &report);
+        assert_int_equal(report.k_in_q16, 0);
+        assert_int_equal(report.k_all_q16, 0);
+        assert_true(warp_plan(&warp, &warp_kernels_scalar, &report, &h, &panel, &picture));
+        if (report.k_in_q16 != (needed ? step.in_q16 : 0) || report.k_all_q16 != (needed ? step.all_q16 : 0))
+            fail_msg("seed %lu, %s: planned for steps %d and %d", (unsigned long)seed, method->name, report.k_in_q16,
+                     report.k_all_q16);
+        warp_report_step(&warp, &report);
+        if (report.k_in_q16 != step.in_q16 || report.k_all_q16 != step.all_q16)
+            fail_msg("seed %lu, %s: steps %d and %d are reported, not %d and %d", (unsigned long)seed, method->name,
+                     report.k_in_q16, report.k_all_q16, step.in_q16, step.all_q16);
+        free(images[0].memory);
+        free(images[1].memory);
+    }
+}
+
 /* Footprints of hundreds of pixels: the mean of the picture, at a bounded cost, through the halved levels. */
 static void huge_footprints_see_the_mean(void **state)
 {
@@ -276,6 +309,7 @@ int main(void)
         cmocka_unit_test(huge_footprints_see_the_mean),      cmocka_unit_test(wrong_images_are_refused),
         cmocka_unit_test(methods_are_found_by_name),         cmocka_unit_test(auto_chooses_by_k_and_stays),
         cmocka_unit_test(auto_shows_what_it_names),          cmocka_unit_test(unlit_frames_leave_the_picture_alone),
+        cmocka_unit_test(steps_are_known_to_who_asks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
