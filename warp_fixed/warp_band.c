@@ -27,8 +27,8 @@ typedef struct {
 /* Some rows of TILE_COLUMNS pixels, and their points: small enough to stay in the first-level cache. */
 typedef struct {
     int32_t column;                                         /* of the first pixel */
-    int32_t begin[PATCH_MAX_HEIGHT], end[PATCH_MAX_HEIGHT]; /* lit columns of each row */
-    bool is_rectangle;                                      /**< all rows have the same extent */
+    bool is_whole;                                          /* all of it is lit */
+    int32_t begin[PATCH_MAX_HEIGHT], end[PATCH_MAX_HEIGHT]; /* else: lit columns of each row */
     int32_t x_q18[PATCH_MAX_HEIGHT * PATCH_MAX_WIDTH], y_q18[PATCH_MAX_HEIGHT * PATCH_MAX_WIDTH];
 } tile_t;
 
@@ -126,6 +126,8 @@ typedef struct {
 
 static extent_t extent_of(const tile_t *tile, int32_t r, int32_t first, int32_t last)
 {
+    if (tile->is_whole)
+        return (extent_t){first, last};
     return (extent_t){tile->begin[r] > first ? tile->begin[r] : first, tile->end[r] < last ? tile->end[r] : last};
 }
 
@@ -140,7 +142,7 @@ static void make_block(const rows_t *rows, const tile_t *tile, int32_t first)
     const int32_t last = first + (1 << rows->columns_log2), channels = (int32_t)rows->plane->panel.format;
     for (int32_t r = 0, next; r < rows->rows; r = next) {
         const extent_t lit = extent_of(tile, r, first, last);
-        for (next = tile->is_rectangle ? rows->rows : r + 1; next < rows->rows; next++) {
+        for (next = tile->is_whole ? rows->rows : r + 1; next < rows->rows; next++) {
             const extent_t below = extent_of(tile, next, first, last);
             if (below.begin != lit.begin || below.end != lit.end)
                 break;
@@ -160,28 +162,30 @@ static void make_block(const rows_t *rows, const tile_t *tile, int32_t first)
     }
 }
 
-/* The rows of a row of tiles, and their lit columns; rows below the band's last have none. */
+/* The rows of a row of tiles, and their lit columns. */
 typedef struct {
     grid_row_cursor_t cursor[PATCH_MAX_HEIGHT];
     int32_t begin[PATCH_MAX_HEIGHT], end[PATCH_MAX_HEIGHT];
-    extent_t lit; /* of any row */
+    extent_t any, all; /* columns that are lit in one row at least, and in every one */
 } lit_rows_t;
 
 static void find_lit_rows(lit_rows_t *lit, const rows_t *rows)
 {
-    lit->lit = (extent_t){rows->plane->panel.width, 0};
-    for (int32_t r = 0; r < PATCH_MAX_HEIGHT; r++) {
-        lit->begin[r] = lit->end[r] = 0;
-        if (r >= rows->rows)
-            continue;
+    const int32_t width = rows->plane->panel.width;
+    lit->any = (extent_t){width, 0};
+    lit->all = (extent_t){0, width};
+    for (int32_t r = 0; r < rows->rows; r++) {
         lit->cursor[r] = grid_row_cursor(&rows->plane->grid, rows->row + r);
         const grid_row_t row = lit->cursor[r].row;
-        if (row.begin >= row.end)
+        const bool is_lit = row.begin < row.end;
+        lit->begin[r] = is_lit ? row.begin : 0;
+        lit->end[r] = is_lit ? row.end : 0;
+        lit->all.begin = lit->begin[r] > lit->all.begin ? lit->begin[r] : lit->all.begin;
+        lit->all.end = lit->end[r] < lit->all.end ? lit->end[r] : lit->all.end;
+        if (!is_lit)
             continue;
-        lit->begin[r] = row.begin;
-        lit->end[r] = row.end;
-        lit->lit.begin = row.begin < lit->lit.begin ? row.begin : lit->lit.begin;
-        lit->lit.end = row.end > lit->lit.end ? row.end : lit->lit.end;
+        lit->any.begin = row.begin < lit->any.begin ? row.begin : lit->any.begin;
+        lit->any.end = row.end > lit->any.end ? row.end : lit->any.end;
     }
 }
 
@@ -199,17 +203,21 @@ static void fill_borders(const rows_t *rows, const lit_rows_t *lit)
 static void tile_points(tile_t *tile, const rows_t *rows, const lit_rows_t *lit)
 {
     const int32_t first = tile->column, last = first + TILE_COLUMNS;
-    int32_t differences = 0;
-    for (int32_t r = 0; r < PATCH_MAX_HEIGHT; r++) {
-        tile->begin[r] = lit->begin[r] > first ? lit->begin[r] : first;
-        tile->end[r] = lit->end[r] < last ? lit->end[r] : last;
-        differences |= (tile->begin[r] - tile->begin[0]) | (tile->end[r] - tile->end[0]);
+    grid_points_fn *points = rows->warp->kernels->grid_points;
+    const int32_t height = rows->rows;
+    tile->is_whole = lit->all.begin <= first && lit->all.end >= last;
+    if (tile->is_whole) {
+        for (int32_t r = 0, at = 0; r < height; r++, at += PATCH_MAX_WIDTH)
+            points(tile->x_q18 + at, tile->y_q18 + at, &lit->cursor[r], first, last);
+        return;
     }
-    tile->is_rectangle = differences == 0;
-    for (int32_t r = 0; r < rows->rows; r++) {
-        const int32_t begin = tile->begin[r], at = r * PATCH_MAX_WIDTH + begin - first;
-        if (begin < tile->end[r])
-            rows->warp->kernels->grid_points(tile->x_q18 + at, tile->y_q18 + at, &lit->cursor[r], begin, tile->end[r]);
+    for (int32_t r = 0; r < height; r++) {
+        const int32_t begin = lit->begin[r] > first ? lit->begin[r] : first;
+        const int32_t end = lit->end[r] < last ? lit->end[r] : last, at = r * PATCH_MAX_WIDTH + begin - first;
+        tile->begin[r] = begin;
+        tile->end[r] = end;
+        if (begin < end)
+            points(tile->x_q18 + at, tile->y_q18 + at, &lit->cursor[r], begin, end);
     }
 }
 
@@ -220,7 +228,7 @@ static void make_rows(const rows_t *rows)
     tile_t tile;
     find_lit_rows(&lit, rows);
     fill_borders(rows, &lit);
-    for (tile.column = lit.lit.begin & -TILE_COLUMNS; tile.column < lit.lit.end; tile.column += TILE_COLUMNS) {
+    for (tile.column = lit.any.begin & -TILE_COLUMNS; tile.column < lit.any.end; tile.column += TILE_COLUMNS) {
         tile_points(&tile, rows, &lit);
         for (int32_t column = 0; column < TILE_COLUMNS; column += 1 << rows->columns_log2)
             make_block(rows, &tile, tile.column + column);
