@@ -14,6 +14,7 @@
 
 #include "firmware/can_protocol.h"
 #include "sim/devices/test_pattern.h"
+#include "sim/devices/sim_picture.h"
 #include "tests/support/tagged.h"
 
 static const frame_tag_t UNTOUCHED = {1, 2, 3};
@@ -23,8 +24,8 @@ static uint8_t *pixels, *captured; /* for the largest pictures */
 static int set_up(void **state)
 {
     (void)state;
-    pixels = malloc(tagged_bytes(PICTURE_XRGB8888, IMAGE_MAX_WIDTH, IMAGE_MAX_HEIGHT));
-    captured = malloc(tagged_bytes(PICTURE_XRGB8888, IMAGE_MAX_WIDTH, IMAGE_MAX_HEIGHT));
+    pixels = malloc((size_t)IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT * IMAGE_XRGB8888);
+    captured = malloc((size_t)IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT * IMAGE_XRGB8888);
     return pixels == NULL || captured == NULL;
 }
 
@@ -66,7 +67,7 @@ static void every_format_and_size_is_read(void **state)
                 continue;
             test_pattern_draw(&image, 7);
             tagged_paint(&image, &painted);
-            const picture_t picture = tagged_picture(captured, format, image.width, image.height);
+            const picture_t picture = sim_picture(format, image.width, image.height, captured);
             tagged_convert(&picture, &image);
             if (frame_tag_decode(&found, &picture) != FRAME_TAG_OK)
                 fail_msg("%d x %d, format %d", (int)image.width, (int)image.height, (int)format);
@@ -159,7 +160,7 @@ static void luma_of_rgb_is_that_of_jpeg(void **state)
                 for (int n = 0; n < TAGGED_WIDTH * TAGGED_HEIGHT; n++)
                     for (int c = 0; c < 3; c++)
                         pixels[4 * n + c] = (uint8_t)(pixels[4 * n + c] >= 128 ? white : c == primary ? 255 : 0);
-                const picture_t picture = tagged_picture(captured, format, TAGGED_WIDTH, TAGGED_HEIGHT);
+                const picture_t picture = sim_picture(format, TAGGED_WIDTH, TAGGED_HEIGHT, captured);
                 tagged_convert(&picture, &image);
                 assert_int_equal(frame_tag_decode(&found, &picture), missing ? FRAME_TAG_NONE : FRAME_TAG_OK);
                 tagged_assert(&found, missing ? &UNTOUCHED : &painted);
@@ -171,7 +172,7 @@ static void bad_pictures_have_none(void **state)
     (void)state;
     frame_tag_layout_t layout = {1, 2, 3, 4};
     frame_tag_t found = UNTOUCHED;
-    picture_t picture = tagged_picture(pixels, PICTURE_XRGB8888, TAGGED_WIDTH, TAGGED_HEIGHT);
+    picture_t picture = sim_picture(PICTURE_XRGB8888, TAGGED_WIDTH, TAGGED_HEIGHT, pixels);
     tagged_paint(&(image_t){pixels, TAGGED_WIDTH, TAGGED_HEIGHT, 4 * TAGGED_WIDTH, IMAGE_XRGB8888}, &UNTOUCHED);
     picture.height = 43;
     assert_int_equal(frame_tag_decode(&found, &picture), FRAME_TAG_NONE);
@@ -185,7 +186,7 @@ static void bad_pictures_have_none(void **state)
     picture.format = PICTURE_FORMATS;
     assert_int_equal(frame_tag_decode(&found, &picture), FRAME_TAG_NONE);
     tagged_paint(&(image_t){pixels, TAGGED_WIDTH, TAGGED_HEIGHT, TAGGED_WIDTH, IMAGE_GRAY8}, &UNTOUCHED);
-    picture = tagged_picture(pixels, PICTURE_NV12, TAGGED_WIDTH, TAGGED_HEIGHT - 1); /* an odd height */
+    picture = sim_picture(PICTURE_NV12, TAGGED_WIDTH, TAGGED_HEIGHT - 1, pixels); /* an odd height */
     assert_int_equal(frame_tag_decode(&found, &picture), FRAME_TAG_NONE);
     tagged_assert(&found, &UNTOUCHED);
 }

@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "firmware/warp_steps.h"
-#include "sim/devices/camera_format.h"
+#include "sim/devices/sim_picture.h"
 #include "sim/files/png_file.h"
 #include "tests/support/tagged.h"
 
@@ -80,8 +80,8 @@ static picture_t capture(picture_format_t format, const frame_tag_t *tag, bool w
         tagged_paint(&image, tag);
     if (worn)
         wear_out(&image);
-    const picture_t picture = tagged_picture(captured, format, WIDTH, HEIGHT);
-    camera_format_convert(&picture, &image);
+    const picture_t picture = sim_picture(format, WIDTH, HEIGHT, captured);
+    sim_picture_from_xrgb(&picture, &image);
     return picture;
 }
 
@@ -122,7 +122,7 @@ static void no_byte_of_the_code_is_seen(void **state)
                 show(shown[t], &picture, layout.hidden_px, &ASKEW);
             }
             if (memcmp(shown[0], shown[1], BYTES) != 0)
-                fail_msg("%s, %s", methods[m], camera_format_names[format]);
+                fail_msg("%s, %s", methods[m], sim_picture_formats[format]);
         }
     }
 }
@@ -144,7 +144,7 @@ static void every_pixel_keeps_its_place(void **state)
             const bool near_the_edge = row >= layout.hidden_px - 1 && row < layout.hidden_px + FILTER_REACH;
             /* Points of grids may lie 1/256 px apart. */
             if (n % 4 != 3 && !near_the_edge && abs(shown[1][n] - expected) > 1)
-                fail_msg("%s, row %d, column %d: %d, not %d", camera_format_names[format], (int)row,
+                fail_msg("%s, row %d, column %d: %d, not %d", sim_picture_formats[format], (int)row,
                          (int)(n / 4 % WIDTH), shown[1][n], expected);
         }
     }

@@ -15,6 +15,7 @@
 #include <jpeglib.h>
 
 #include "sim/files/png_file.h"
+#include "sim/devices/sim_picture.h"
 #include "tests/support/tagged.h"
 
 /* How a picture is compressed. */
@@ -80,7 +81,7 @@ static void assert_survives(const image_t *image, const char *name, const jpeg_t
     assert_non_null(captured);
     expand(&received, file, length);
     for (picture_format_t format = PICTURE_XRGB8888; format < PICTURE_FORMATS; format++) {
-        const picture_t picture = tagged_picture(captured, format, image->width, image->height);
+        const picture_t picture = sim_picture(format, image->width, image->height, captured);
         frame_tag_t found = {0, 0, 0};
         tagged_convert(&picture, &received);
         const frame_tag_status_t status = frame_tag_decode(&found, &picture);

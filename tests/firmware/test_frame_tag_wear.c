@@ -14,6 +14,7 @@
 
 #include "sim/devices/test_pattern.h"
 #include "sim/files/png_file.h"
+#include "sim/devices/sim_picture.h"
 #include "tests/support/tagged.h"
 #include "warp_fixed/fixed.h"
 
@@ -73,7 +74,7 @@ static void worn_pictures_are_read(void **state)
         {"all of it, the other way", true, 0.9, 0.8, 10, 1, -1, -1},
     };
     enum { ROUNDS = 10 };
-    const picture_t picture = tagged_picture(captured, PICTURE_GRAY8, WIDTH, HEIGHT);
+    const picture_t picture = sim_picture(PICTURE_GRAY8, WIDTH, HEIGHT, captured);
     for (size_t w = 0; w < sizeof wears / sizeof wears[0]; w++)
         for (uint64_t seed = 0; seed < ROUNDS; seed++) {
             rng_t rng = {seed};
@@ -102,7 +103,7 @@ static void assert_none(const picture_t *picture, const char *what)
 static void pictures_without_it_are_not_taken_for_it(void **state)
 {
     (void)state;
-    const picture_t gray = tagged_picture(pixels, PICTURE_GRAY8, WIDTH, HEIGHT);
+    const picture_t gray = sim_picture(PICTURE_GRAY8, WIDTH, HEIGHT, pixels);
     for (int level = 0; level < 256; level++) {
         memset(pixels, level, WIDTH * HEIGHT);
         assert_none(&gray, "one level");
@@ -154,7 +155,7 @@ static void noise_is_not_taken_for_it(void **state)
 static void contrast_must_be_enough(void **state)
 {
     (void)state;
-    const picture_t picture = tagged_picture(pixels, PICTURE_GRAY8, TAGGED_WIDTH, TAGGED_HEIGHT);
+    const picture_t picture = sim_picture(PICTURE_GRAY8, TAGGED_WIDTH, TAGGED_HEIGHT, pixels);
     for (int contrast = 0; contrast < 60; contrast++) {
         frame_tag_t found = UNTOUCHED;
         memset(pixels, 128, TAGGED_WIDTH * TAGGED_HEIGHT);

@@ -10,34 +10,7 @@
 
 #include <string.h>
 
-#include "sim/devices/camera_format.h"
-
-/* Of a row in plane 0. */
-static int32_t row_bytes(picture_format_t format, int32_t width)
-{
-    static const int32_t pixel_bytes[PICTURE_FORMATS] = {
-        [PICTURE_XRGB8888] = 4, [PICTURE_GRAY8] = 1, [PICTURE_RGB888] = 3, [PICTURE_BGR888] = 3,
-        [PICTURE_YUYV] = 2,     [PICTURE_UYVY] = 2,  [PICTURE_NV12] = 1,
-    };
-    return width * pixel_bytes[format];
-}
-
-picture_t tagged_picture(uint8_t *bytes, picture_format_t format, int32_t width, int32_t height)
-{
-    const int32_t stride = row_bytes(format, width);
-    return (picture_t){.format = format,
-                       .matrix = PICTURE_BT709,
-                       .width = width,
-                       .height = height,
-                       .data = {bytes, format == PICTURE_NV12 ? bytes + (ptrdiff_t)stride * height : NULL},
-                       .stride = {stride, format == PICTURE_NV12 ? width : 0}};
-}
-
-size_t tagged_bytes(picture_format_t format, int32_t width, int32_t height)
-{
-    const size_t plane = (size_t)row_bytes(format, width) * (size_t)height;
-    return format == PICTURE_NV12 ? plane + plane / 2 : plane;
-}
+#include "sim/devices/sim_picture.h"
 
 void tagged_paint(const image_t *image, const frame_tag_t *tag)
 {
@@ -49,7 +22,7 @@ void tagged_paint(const image_t *image, const frame_tag_t *tag)
 void tagged_convert(const picture_t *to, const image_t *from)
 {
     if (to->format != PICTURE_GRAY8) {
-        camera_format_convert(to, from);
+        sim_picture_from_xrgb(to, from);
         return;
     }
     for (int32_t y = 0; y < to->height; y++)
@@ -67,7 +40,7 @@ picture_t tagged_draw_bits(uint8_t *pixels, const uint8_t bits[TAGGED_BYTES])
         for (int y = 0; y < SIDE; y++)
             memset(corner + (ptrdiff_t)y * TAGGED_WIDTH, white ? 224 : 32, SIDE);
     }
-    return tagged_picture(pixels, PICTURE_GRAY8, TAGGED_WIDTH, TAGGED_HEIGHT);
+    return sim_picture(PICTURE_GRAY8, TAGGED_WIDTH, TAGGED_HEIGHT, pixels);
 }
 
 void tagged_assert(const frame_tag_t *found, const frame_tag_t *expected)

@@ -10,11 +10,6 @@
 
 enum { TAGGED_BYTES = FRAME_TAG_BLOCKS / 8, TAGGED_WIDTH = 96, TAGGED_HEIGHT = 54 };
 
-/** @return A picture in `bytes`, without gaps; as many bytes as tagged_bytes() says. */
-picture_t tagged_picture(uint8_t *bytes, picture_format_t format, int32_t width, int32_t height);
-
-size_t tagged_bytes(picture_format_t format, int32_t width, int32_t height);
-
 /** Draw the code; the test fails when there is no room. @param image  XRGB8888 or GRAY8. */
 void tagged_paint(const image_t *image, const frame_tag_t *tag);
 
