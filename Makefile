@@ -25,7 +25,7 @@ PROGRAMS := wallwarp wallwarp-sim wallwarp-eval wallwarp-pose
 MAINS    := firmware/main.c sim/wallwarp_sim.c sim/wallwarp_eval.c sim/wallwarp_pose.c
 
 WARP_C     := $(wildcard warp_fixed/*.c)
-HAL_C      := hal/linux/workers_pthread.c
+HAL_C      := $(addprefix hal/linux/,workers_pthread.c key_file.c)
 FIRMWARE_C := $(filter-out $(MAINS),$(wildcard firmware/*.c firmware/*/*.c))
 SIM_C      := $(filter-out $(MAINS),$(wildcard sim/*.c sim/*/*.c))
 TESTS_C    := $(wildcard tests/*/test_*.c tests/*/*/test_*.c)
