@@ -110,6 +110,8 @@ $(BUILD)/tests/sim/pose/send_pose: sim/pose/examples/send_pose.c
 $(BUILD)/tests/sim/pose/test_send_pose: $(BUILD)/tests/sim/pose/send_pose
 
 $(BUILD)/tests/firmware/test_frame_tag_jpeg: LDLIBS += -ljpeg
+$(addprefix $(BUILD)/tests/,firmware/test_can_auth firmware/test_can_auth_time firmware/test_can_auth_no_heap \
+    fuzz/fuzz_can_auth): LDLIBS += -lmbedcrypto
 
 # --- tests -----------------------------------------------------------------------------------------------------------
 
@@ -155,7 +157,7 @@ run-tests: programs $(TESTS) $(HELPERS)
 sanitize: setup-test ## Run the unit tests again with the address and undefined-behaviour sanitizers
 	$(Q)$(MAKE) --no-print-directory BUILD=build/sanitize OPT='-O1 -fsanitize=address,undefined \
 	    -fno-sanitize-recover=all -fno-omit-frame-pointer' \
-	    TESTS_C='$(filter-out %/test_no_heap.c,$(TESTS_C))' run-unit-tests
+	    TESTS_C='$(filter-out %_no_heap.c,$(TESTS_C))' run-unit-tests
 .PHONY: run-unit-tests
 run-unit-tests: $(TESTS) $(CHECK_KERNELS)
 	$(Q)tests/run.sh $(BUILD)/test-logs $(foreach t,$(TESTS) $(CHECK_KERNELS),'$(t)')

@@ -4,55 +4,13 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include <cmocka.h>
 
 #include "sim/devices/sim_camera.h"
 #include "sim/devices/sim_display.h"
+#include "tests/support/heap_trap.h"
 #include "tests/support/room_bench.h"
-
-/* The allocator of this program is the C library's behind a trap. So it cannot be built with a sanitizer, which brings
- * an allocator of its own. */
-/* Volatile: a compiler knows that its own malloc() reads no variable of the program. */
-static volatile bool trap_set;
-static volatile int trapped_calls;
-
-void *__libc_malloc(size_t size);
-void *__libc_calloc(size_t count, size_t size);
-void *__libc_realloc(void *block, size_t size);
-void *__libc_memalign(size_t alignment, size_t size);
-void __libc_free(void *block);
-
-void *malloc(size_t size)
-{
-    trapped_calls += trap_set;
-    return __libc_malloc(size);
-}
-
-void *calloc(size_t count, size_t size)
-{
-    trapped_calls += trap_set;
-    return __libc_calloc(count, size);
-}
-
-void *realloc(void *block, size_t size)
-{
-    trapped_calls += trap_set;
-    return __libc_realloc(block, size);
-}
-
-void *aligned_alloc(size_t alignment, size_t size)
-{
-    trapped_calls += trap_set;
-    return __libc_memalign(alignment, size);
-}
-
-void free(void *block)
-{
-    trapped_calls += trap_set;
-    __libc_free(block);
-}
 
 static room_bench_t bench;
 static projector_t projector;
@@ -60,9 +18,9 @@ static projector_t projector;
 static void step(void)
 {
     room_bench_advance(&bench);
-    trap_set = true;
+    heap_trap_set = true;
     projector_step(&projector);
-    trap_set = false;
+    heap_trap_set = false;
     bench.step++;
 }
 
@@ -79,18 +37,7 @@ static void open_projector(const warp_method_t *method, bool fd)
     room_board_t board = bench.room.board[0];
     board.method = method;
     projector_init(&projector, &bench.room, &board, sim_world_devices(bench.world, 0), &warp_kernels_scalar);
-    trapped_calls = 0;
-}
-
-static void test_the_trap_works(void **state)
-{
-    (void)state;
-    trapped_calls = 0;
-    trap_set = true;
-    void *volatile block = malloc(1);
-    free(block);
-    trap_set = false;
-    assert_int_equal(trapped_calls, 2);
+    heap_trap_calls = 0;
 }
 
 static void test_no_method_allocates(void **state)
@@ -100,7 +47,7 @@ static void test_no_method_allocates(void **state)
         open_projector(&warp_methods[i], i % 2 == 0);
         run(200);
         const bool drawn = projector.report.corrected;
-        const int calls = trapped_calls;
+        const int calls = heap_trap_calls;
         room_bench_close(&bench);
         if (!drawn || calls != 0)
             printf("method %s\n", warp_methods[i].name);
@@ -136,7 +83,7 @@ static void test_no_fault_allocates(void **state)
     sim_camera_faults(devices->camera)->unplugged_until_us = 0;
     run(600);
     assert_int_equal(projector.report.state, CAN_BOARD_RUNNING);
-    const int calls = trapped_calls;
+    const int calls = heap_trap_calls;
     room_bench_close(&bench);
     assert_int_equal(calls, 0);
 }
@@ -144,7 +91,7 @@ static void test_no_fault_allocates(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_the_trap_works),
+        cmocka_unit_test(heap_trap_works),
         cmocka_unit_test(test_no_method_allocates),
         cmocka_unit_test(test_no_fault_allocates),
     };
