@@ -3,34 +3,13 @@
 #include "warp_fixed/homography_from_pose.h"
 
 #include "warp_fixed/real_vector.h"
-
-/* R_c: rows are the camera's axes in the world, the transpose of the quaternion's rotation; |q| need not be 1. */
-static void rotation_from_quaternion(real_t rotation[3][3], const real_t q[4], real_t square)
-{
-    const real_t w = q[0], v[3] = {q[1], q[2], q[3]};
-    const real_t two = real_from_int(2, 0);
-    for (int a = 0; a < 3; a++) {
-        const int b = (a + 1) % 3, c = (a + 2) % 3;
-        const real_t bc = real_add(real_mul(v[b], v[b]), real_mul(v[c], v[c]));
-        const real_t ab = real_mul(v[a], v[b]), wc = real_mul(w, v[c]);
-        rotation[a][a] = real_div(real_sub(square, real_mul(two, bc)), square);
-        /* The quaternion's matrix has 2 (ab - wc) at (a, b) and 2 (ab + wc) at (b, a); this is its transpose. */
-        rotation[b][a] = real_div(real_mul(two, real_sub(ab, wc)), square);
-        rotation[a][b] = real_div(real_mul(two, real_add(ab, wc)), square);
-    }
-}
+#include "warp_fixed/rotation_from_quaternion.h"
 
 bool homography_from_pose(homography_t *homography, const camera_t *camera, const wall_t *wall, const pose_t *pose)
 {
-    real_t q[4], square = real_from_int(0, 0);
-    for (int i = 0; i < 4; i++) {
-        q[i] = real_from_int(pose->quaternion_q30[i], -30);
-        square = real_add(square, real_mul(q[i], q[i]));
-    }
-    if (real_sign(square) == 0)
-        return false;
     real_t rotation[3][3];
-    rotation_from_quaternion(rotation, q, square);
+    if (!rotation_from_quaternion(rotation, pose->quaternion_q30))
+        return false;
 
     /* Wall point minus eye, times the weight, in um: the difference is taken first, where it is exact. */
     real_t from_eye[3][3];
