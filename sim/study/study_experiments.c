@@ -14,5 +14,6 @@ const study_experiment_t study_experiments[] = {
     {"moving viewer", study_flicker, 3, 64},
     {"uneven light", study_intensity, 3, 40},
     {"latency", study_latency, 3, 7},
+    {"prediction", study_prediction, 2, 6},
     {0},
 };

@@ -16,6 +16,7 @@ study_experiment_fn study_footprints; /**< where that comes from: error by the f
 study_experiment_fn study_flicker;    /**< a moving viewer: flicker and sharpness */
 study_experiment_fn study_intensity;  /**< beyond the paper: uneven pixels, walls that shine */
 study_experiment_fn study_latency;    /**< beyond the paper: old and noisy poses */
+study_experiment_fn study_prediction; /**< beyond the paper: poses that are yet to come */
 
 /** The table of them all, ended by a row without a name. */
 extern const study_experiment_t study_experiments[];

@@ -102,6 +102,15 @@ test_late_poses() {
     check "the table of what a tracker must deliver is that of the curves" $?
 }
 
+test_prediction() {
+    holds prediction.csv "prediction is no worse than holding by 10 %, 10 to 60 ms ahead" \
+        '$2 < 10 || $2 > 60 || $5 <= 1.1 && $8 <= 1.1'
+    holds prediction_40ms.csv "at 40 ms it leaves 30 % of what moves, at most" \
+        '$1 == "turning" || $1 == "standing" || $4 <= 0.3'
+    holds prediction_40ms.csv "at 40 ms it leaves 30 % of what turns, at most" \
+        '$1 != "turning" && $1 != "both" || $7 <= 0.3'
+}
+
 test_uneven_light() {
     holds intensity_order.csv "the paper's own pixels keep their order, and no order is kept by more than all" \
         '($1 != "ideal" || $3 == 100 && $4 == 100) && $3 <= 100 && $4 <= 100'
@@ -129,6 +138,7 @@ test_figure_5
 test_figures_8_and_9
 test_gap
 test_late_poses
+test_prediction
 test_uneven_light
 test_bad_command_lines
 echo "$passed passed, $failed failed"
