@@ -8,21 +8,54 @@
 
 enum { STRIP_VECTORS = 4 };
 
-/* Copy that part of the picture, and its mirror images where it reaches beyond. Apart from its caller, whose loops need
- * the registers. */
+/* The same bytes of each row; vectors overlap at the end. */
+static void copy_rows(uint8_t *to, const uint8_t *const *row, int32_t rows, int32_t first, int32_t bytes)
+{
+    for (int32_t v = 0; v < rows; v++, to += COPY_STRIDE) {
+        const uint8_t *from = row[v] + first;
+        if (bytes < COPY_VECTOR) {
+            memcpy(to, from, (size_t)bytes);
+            continue;
+        }
+        for (int32_t i = 0; i < bytes - COPY_VECTOR; i += COPY_VECTOR)
+            vst1q_u8(to + i, vld1q_u8(from + i));
+        vst1q_u8(to + bytes - COPY_VECTOR, vld1q_u8(from + bytes - COPY_VECTOR));
+    }
+}
+
+NEON_INLINE void copy_texels_of(uint8_t *to, const uint8_t *const *row, int32_t rows, int32_t first, size_t bytes)
+{
+    for (int32_t v = 0; v < rows; v++, to += COPY_STRIDE)
+        memcpy(to, row[v] + first, bytes);
+}
+
+/* One texel of each row. */
+static void copy_column(uint8_t *to, const uint8_t *const *row, int32_t rows, int32_t first, int32_t bytes)
+{
+    if (bytes == 1)
+        copy_texels_of(to, row, rows, first, 1);
+    else if (bytes == 2)
+        copy_texels_of(to, row, rows, first, 2);
+    else if (bytes == 4)
+        copy_texels_of(to, row, rows, first, 4);
+    else
+        copy_texels_of(to, row, rows, first, 8);
+}
+
+/* Copy that part of the picture, and its mirror images where it reaches beyond. Apart from its callers, whose loops
+ * need the registers. */
 static __attribute__((noinline)) void copy_mirrored(uint8_t *to, const texels_t *from, reach_t x, reach_t y)
 {
-    const int32_t bytes = from->texel_bytes;
+    const int32_t bytes = from->texel_bytes, rows = y.end - y.begin;
     const int32_t first = clamp_i32(0, x.begin, x.end), last = clamp_i32(from->width, first, x.end);
-    for (int32_t v = y.begin; v < y.end; v++, to += COPY_STRIDE) {
-        const uint8_t *row = from->data + mirror_index(v, from->height) * from->stride;
-        for (int32_t u = x.begin; u < first; u++)
-            memcpy(to + (u - x.begin) * bytes, row + mirror_index(u, from->width) * bytes, (size_t)bytes);
-        if (first < last)
-            memcpy(to + (first - x.begin) * bytes, row + first * bytes, (size_t)((last - first) * bytes));
-        for (int32_t u = last; u < x.end; u++)
-            memcpy(to + (u - x.begin) * bytes, row + mirror_index(u, from->width) * bytes, (size_t)bytes);
-    }
+    const uint8_t *row[COPY_ROWS];
+    for (int32_t v = 0; v < rows; v++)
+        row[v] = from->data + mirror_index(y.begin + v, from->height) * from->stride;
+    for (int32_t u = x.begin; u < first; u++)
+        copy_column(to + (u - x.begin) * bytes, row, rows, mirror_index(u, from->width) * bytes, bytes);
+    copy_rows(to + (first - x.begin) * bytes, row, rows, first * bytes, (last - first) * bytes);
+    for (int32_t u = last; u < x.end; u++)
+        copy_column(to + (u - x.begin) * bytes, row, rows, mirror_index(u, from->width) * bytes, bytes);
 }
 
 /* Rows of so many vectors, less 128. May be in place. */

@@ -25,7 +25,7 @@ typedef struct {
     const uint8_t *data;
     int32_t width, height;
     ptrdiff_t stride; /**< bytes from row to row; height times it fits 31 bits */
-    int32_t texel_bytes;
+    int32_t texel_bytes; /**< 1, 2, 4 or 8 */
 } texels_t;
 
 /** All that a loop has to know to find windows: a point plus its start, Q18, is where the window begins in data. */
