@@ -132,50 +132,52 @@ static void halve(patch_t half[2], const patch_t *patch, int32_t pixel_bytes)
 }
 
 /* A patch whose points are in the picture, in halves, ten times at most, until what a piece reads can be copied. */
-static void weigh_copies(const call_t *call, const patch_t *patch)
+static void weigh_copies(const call_t *call, const patch_t *patch, reach_t x, reach_t y)
 {
-    const reach_t x = columns_of(call, patch), y = rows_of(call, patch);
     if (copy_fits(call->texels, call->loop, x, y)) {
         weigh_copy(call, patch, x, y);
         return;
     }
     patch_t half[2];
     halve(half, patch, call->loop->pixel_bytes);
-    weigh_copies(call, &half[0]);
-    weigh_copies(call, &half[1]);
+    for (int i = 0; i < 2; i++)
+        weigh_copies(call, &half[i], columns_of(call, &half[i]), rows_of(call, &half[i]));
 }
 
-static void clamp_points(int32_t *to, const int32_t *from, const patch_t *patch, int32_t size)
+/* @return Points clamped to the picture: those of the patch if they are in it, else in `to`. */
+static const int32_t *clamp_points(int32_t *to, const int32_t *from, const patch_t *patch, int32_t size)
 {
+    if (reach_is_inside(reach_of(patch, from, 0, 1), size))
+        return from;
     const int32_t most = size << GRID_FRACTION_BITS;
-    for (int32_t r = 0; r < patch->height; r++, to += PATCH_MAX_WIDTH, from += PATCH_MAX_WIDTH) {
-        int32_t k = 0;
+    for (int32_t r = 0; r < patch->height; r++, from += PATCH_MAX_WIDTH) {
+        int32_t *row = to + r * PATCH_MAX_WIDTH, k = 0;
         for (; k + 4 <= patch->width; k += 4)
-            vst1q_s32(to + k, vminq_s32(vmaxq_s32(vld1q_s32(from + k), vdupq_n_s32(0)), vdupq_n_s32(most)));
+            vst1q_s32(row + k, vminq_s32(vmaxq_s32(vld1q_s32(from + k), vdupq_n_s32(0)), vdupq_n_s32(most)));
         for (; k < patch->width; k++)
-            to[k] = clamp_i32(from[k], 0, most);
+            row[k] = clamp_i32(from[k], 0, most);
     }
+    return to;
 }
 
 static __attribute__((noinline)) void weigh_edge(const call_t *call, const patch_t *patch)
 {
     int32_t x_q18[PATCH_MAX_HEIGHT * PATCH_MAX_WIDTH], y_q18[PATCH_MAX_HEIGHT * PATCH_MAX_WIDTH];
     patch_t clamped = *patch;
-    clamp_points(x_q18, patch->x_q18, patch, call->texels->width);
-    clamp_points(y_q18, patch->y_q18, patch, call->texels->height);
-    clamped.x_q18 = x_q18;
-    clamped.y_q18 = y_q18;
-    weigh_copies(call, &clamped);
+    clamped.x_q18 = clamp_points(x_q18, patch->x_q18, patch, call->texels->width);
+    clamped.y_q18 = clamp_points(y_q18, patch->y_q18, patch, call->texels->height);
+    weigh_copies(call, &clamped, columns_of(call, &clamped), rows_of(call, &clamped));
 }
 
 /* Halves, so that little of a patch counts as edge. */
 static void weigh_pieces(const call_t *call, const patch_t *patch)
 {
     const texels_t *texels = call->texels;
-    const bool inside = reach_is_inside(columns_of(call, patch), texels->width) &&
-                        reach_is_inside(rows_of(call, patch), texels->height);
-    if (inside && (call->loop->centred || call->loop->paired)) {
-        weigh_copies(call, patch);
+    const reach_t x = columns_of(call, patch), y = rows_of(call, patch);
+    const bool inside = reach_is_inside(x, texels->width) && reach_is_inside(y, texels->height);
+    const bool copied = call->loop->centred || call->loop->paired;
+    if (inside && copied) {
+        weigh_copies(call, patch, x, y);
     } else if (inside) {
         const window_source_t source = source_from(call, texels->data, texels->stride, 0, 0);
         weigh_in(call, patch, &source);
