@@ -9,9 +9,13 @@
 #include "warp_fixed/resample_linear_neon.h"
 
 #include "warp_fixed/fixed.h"
+#include "warp_fixed/window_ahead.h"
 
 enum { STEP = RESAMPLE_LINEAR_STEP, PHASE_SHIFT = GRID_FRACTION_BITS - PHASE_BITS, ROUNDING = 1 << (SUM_SHIFT - 1) };
 
+#ifdef __AVX2__
+#include "warp_fixed/resample_linear_avx2.h"
+#else
 /* Where eight windows begin, and the weights of their lower rows, and 32767 - w and w in turn. */
 typedef struct {
     uint32x4_t texel[2];
@@ -68,22 +72,30 @@ static inline uint8x16_t four_xrgb(const window_source_t *from, uint32x4_t texel
     return vcombine_u8(levels(a, b), levels(c, d));
 }
 
+static inline void eight_xrgb(uint8_t *out, const window_source_t *from, const int32_t *x_q18, const int32_t *y_q18,
+                              ptrdiff_t ahead)
+{
+    (void)ahead;
+    const eight_windows_t windows = eight_windows(from, x_q18, y_q18, 2);
+    uint8_t upper[STEP], lower[STEP];
+    vst1_u8(upper, vsub_u8(vdup_n_u8(FIRST_SUM), vmovn_u16(windows.lower)));
+    vst1_u8(lower, vmovn_u16(windows.lower));
+    vst1q_u8(out, four_xrgb(from, windows.texel[0], &upper[0], &lower[0], windows.second[0]));
+    vst1q_u8(out + 16, four_xrgb(from, windows.texel[1], &upper[4], &lower[4], windows.second[1]));
+}
+#endif
+
 void resample_linear_xrgb_neon(const patch_t *patch, const window_t *window, const window_source_t *source)
 {
     (void)window;
     const window_source_t from = *source; /* what is written might alias these */
     const int32_t width = patch->width, height = patch->height;
     for (int32_t r = 0; r < height; r++) {
+        const ptrdiff_t ahead = bytes_ahead(patch, r, &from, 2);
         const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
         uint8_t *out = patch->out + r * patch->stride;
-        for (const int32_t *end = x_q18 + width; x_q18 < end; x_q18 += STEP, y_q18 += STEP, out += 4 * STEP) {
-            const eight_windows_t windows = eight_windows(&from, x_q18, y_q18, 2);
-            uint8_t upper[STEP], lower[STEP];
-            vst1_u8(upper, vsub_u8(vdup_n_u8(FIRST_SUM), vmovn_u16(windows.lower)));
-            vst1_u8(lower, vmovn_u16(windows.lower));
-            vst1q_u8(out, four_xrgb(&from, windows.texel[0], &upper[0], &lower[0], windows.second[0]));
-            vst1q_u8(out + 16, four_xrgb(&from, windows.texel[1], &upper[4], &lower[4], windows.second[1]));
-        }
+        for (const int32_t *end = x_q18 + width; x_q18 < end; x_q18 += STEP, y_q18 += STEP, out += 4 * STEP)
+            eight_xrgb(out, &from, x_q18, y_q18, ahead);
     }
 }
 
