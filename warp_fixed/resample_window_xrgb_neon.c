@@ -8,7 +8,11 @@
 #include "warp_fixed/resample_cubic_neon.h"
 #include "warp_fixed/resample_linear_neon.h"
 #include "warp_fixed/resample_long_neon.h"
+#include "warp_fixed/window_ahead.h"
 #include "warp_fixed/window_texels_neon.h"
+#ifdef __AVX2__
+#include "warp_fixed/resample_window_avx2.h"
+#endif
 
 /* sums + weights[lane] * values of one pixel's four channels. */
 #define ADD_PIXEL(sums, values, weights, lane, negative)                                                               \
@@ -53,16 +57,15 @@ NEON_INLINE void add_row_xrgb(int16x8_t *v, const uint8_t *texels, uint8x16_t we
 }
 
 /* Second-pass sums of one pixel, negated where weights are negative. */
-NEON_INLINE int32x4_t weigh_xrgb(const uint8_t *texels, ptrdiff_t stride, const uint8_t *first, int32_t ny,
-                                 const uint8_t *second, int32_t nx, bool negative)
+NEON_INLINE int32x4_t weigh_xrgb(one_window_t one, ptrdiff_t stride, int32_t nx, int32_t ny, bool negative)
 {
-    const splats_t splats = load_splats(first, ny);
+    const splats_t splats = load_splats(one.first, ny);
     int16x8_t v[WINDOW_SHORT_TAPS / 2];
-    first_row_xrgb(v, texels, splats.row[0], nx, negative);
+    first_row_xrgb(v, one.texels, splats.row[0], nx, negative);
     for (int t = 1; t < ny; t++)
-        add_row_xrgb(v, texels + t * stride, splats.row[t], nx, negative);
+        add_row_xrgb(v, one.texels + t * stride, splats.row[t], nx, negative);
 
-    const int16x8_t weights = vreinterpretq_s16_u8(vld1q_u8(second));
+    const int16x8_t weights = vreinterpretq_s16_u8(vld1q_u8(one.second));
     const int16x4_t left = vget_low_s16(weights), right = vget_high_s16(weights);
     int32x4_t sums = first_pixel(vget_low_s16(v[0]), left, negative);
     sums = ADD_PIXEL(sums, vget_high_s16(v[0]), left, 1, negative);
@@ -81,32 +84,37 @@ NEON_INLINE int32x4_t weigh_xrgb(const uint8_t *texels, ptrdiff_t stride, const 
     return sums;
 }
 
+/* Four pixels. */
+NEON_INLINE uint8x16_t four_xrgb(const one_window_t *origin, const window_step_t *step, ptrdiff_t stride, int32_t nx,
+                                 int32_t ny, bool negative)
+{
+#ifdef __AVX2__
+    if (!negative)
+        return four_positive_xrgb(origin, step, stride, nx, ny);
+#endif
+    const int32x4_t a = weigh_xrgb(nth_window(origin, step, 0), stride, nx, ny, negative);
+    const int32x4_t b = weigh_xrgb(nth_window(origin, step, 1), stride, nx, ny, negative);
+    const int32x4_t c = weigh_xrgb(nth_window(origin, step, 2), stride, nx, ny, negative);
+    const int32x4_t d = weigh_xrgb(nth_window(origin, step, 3), stride, nx, ny, negative);
+    return vcombine_u8(pixels_from_sums(a, b, negative), pixels_from_sums(c, d, negative));
+}
+
 NEON_INLINE void patch_xrgb(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t nx,
                             int32_t ny, bool negative)
 {
     const window_source_t from = *source; /* what is written might alias these */
+    const one_window_t origin = {from.data, window->y.first_bytes, (const uint8_t *)window->x.second};
     const ptrdiff_t stride = negative ? COPY_STRIDE : from.stride;
-    const uint8_t *first = window->y.first_bytes;
-    const uint8_t *second = (const uint8_t *)window->x.second;
     const int32_t width = patch->width, height = patch->height;
     for (int32_t r = 0; r < height; r++) {
+        const ptrdiff_t ahead = bytes_ahead(patch, r, &from, 2);
         const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
         uint8_t *out = patch->out + r * patch->stride;
         for (const int32_t *end = x_q18 + width; x_q18 < end; x_q18 += PATCH_STEP, y_q18 += PATCH_STEP) {
             const window_step_t step = window_step(&from, x_q18, y_q18, 2);
-            const int32x4_t a =
-                weigh_xrgb(from.data + stored_offset(&step.texel[0]), stride, first + stored_offset(&step.row_y[0]), ny,
-                           second + stored_offset(&step.row_x[0]), nx, negative);
-            const int32x4_t b =
-                weigh_xrgb(from.data + stored_offset(&step.texel[1]), stride, first + stored_offset(&step.row_y[1]), ny,
-                           second + stored_offset(&step.row_x[1]), nx, negative);
-            const int32x4_t c =
-                weigh_xrgb(from.data + stored_offset(&step.texel[2]), stride, first + stored_offset(&step.row_y[2]), ny,
-                           second + stored_offset(&step.row_x[2]), nx, negative);
-            const int32x4_t d =
-                weigh_xrgb(from.data + stored_offset(&step.texel[3]), stride, first + stored_offset(&step.row_y[3]), ny,
-                           second + stored_offset(&step.row_x[3]), nx, negative);
-            vst1q_u8(out, vcombine_u8(pixels_from_sums(a, b, negative), pixels_from_sums(c, d, negative)));
+            if (!negative) /* otherwise it is a copy */
+                prefetch_rows(from.data, ahead + (ptrdiff_t)step.texel[0], stride, ny);
+            vst1q_u8(out, four_xrgb(&origin, &step, stride, nx, ny, negative));
             out += 4 * PATCH_STEP;
         }
     }

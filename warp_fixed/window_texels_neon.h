@@ -18,6 +18,19 @@ enum {
     START_NEGATIVE = 128 * FIRST_SUM * SECOND_SUM + ROUNDING
 };
 
+/** Where the texels and the rows of weights of one window begin. */
+typedef struct {
+    const uint8_t *texels, *first, *second;
+} one_window_t;
+
+/** @return The step's k-th window, where the source and row 0 of both tables begin at `origin`. */
+NEON_INLINE one_window_t nth_window(const one_window_t *origin, const window_step_t *step, int k)
+{
+    return (one_window_t){origin->texels + stored_offset(&step->texel[k]),
+                          origin->first + stored_offset(&step->row_y[k]),
+                          origin->second + stored_offset(&step->row_x[k])};
+}
+
 /** First-pass weights of one window, a vector to each row. */
 typedef struct {
     uint8x16_t row[WINDOW_SHORT_TAPS];
