@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "warp_fixed/fixed.h"
+#include "warp_fixed/window_ahead.h"
 
 enum {
     MIDDLE = 128 * FIRST_SUM,
@@ -87,10 +88,13 @@ NEON_INLINE void weigh_patch(const patch_t *patch, const window_t *window, const
     const cubic_t cubic = cubic_of(window, source);
     const int32_t width = patch->width, height = patch->height;
     for (int32_t r = 0; r < height; r++) {
+        const int texel_log2 = channels == 4 ? 2 : 0;
+        const ptrdiff_t ahead = bytes_ahead(patch, r, &from, texel_log2);
         const int32_t *x_q18 = patch->x_q18 + r * PATCH_MAX_WIDTH, *y_q18 = patch->y_q18 + r * PATCH_MAX_WIDTH;
         uint8_t *out = patch->out + r * patch->stride;
         for (const int32_t *end = x_q18 + width; x_q18 < end; x_q18 += PATCH_STEP, y_q18 += PATCH_STEP) {
-            const window_step_t step = window_step(&from, x_q18, y_q18, channels == 4 ? 2 : 0);
+            const window_step_t step = window_step(&from, x_q18, y_q18, texel_log2);
+            prefetch_rows(from.data, ahead + (ptrdiff_t)step.texel[0], from.stride, CUBIC_TAPS);
             if (channels == 4) {
                 const uint8x8_t left = pixels_from_sums(weigh_xrgb(&cubic, &step, 0), weigh_xrgb(&cubic, &step, 1));
                 const uint8x8_t right = pixels_from_sums(weigh_xrgb(&cubic, &step, 2), weigh_xrgb(&cubic, &step, 3));
