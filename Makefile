@@ -135,6 +135,22 @@ $(GOLDEN_VARIANTS:%=golden-%): golden-%:
 	$(Q)variant=$* && $(MAKE) --no-print-directory BUILD=build/variants/$* CC=$${variant%-O?} OPT=-$${variant##*-} \
 	    LDFLAGS=-static build/variants/$*/golden_hashes $(if $(filter $*,$(KERNEL_VARIANTS)),build/variants/$*/check_kernels)
 
+# Vector code has forms of its own for AVX2 and AVX-512: built for this CPU, as the benchmark is, and without AVX-512.
+# A CPU without either is given SSE2 again.
+X86          := build/variants/x86
+X86_OPT      := -O3 -march=native
+X86_AVX2     := $(X86)-avx2
+X86_AVX2_OPT := $(X86_OPT) -mno-avx512f
+x86_checks    = $(addprefix $(1)/,check_kernels tests/warp_fixed/test_neon tests/warp_fixed/test_neon_products)
+.PHONY: golden-x86 golden-x86-avx2
+golden: golden-x86 golden-x86-avx2
+golden-x86:
+	$(Q)$(MAKE) --no-print-directory BUILD=$(X86) OPT='$(X86_OPT)' LIBS=$(X86)/libwarp.a \
+	    $(X86)/golden_hashes $(call x86_checks,$(X86))
+golden-x86-avx2:
+	$(Q)$(MAKE) --no-print-directory BUILD=$(X86_AVX2) OPT='$(X86_AVX2_OPT)' LIBS=$(X86_AVX2)/libwarp.a \
+	    $(call x86_checks,$(X86_AVX2))
+
 # Commands of the test run, one word list each.
 emulated     = $(if $(findstring aarch64,$(1)),qemu-aarch64 )
 golden_check = tests/golden/check.sh $(call emulated,$(1))build/variants/$(1)/golden_hashes
@@ -144,7 +160,9 @@ levels       = scalar $(if $(filter %-O3,$(1)),neon)
 SCRIPTS      := $(wildcard tests/*/test_*.sh tests/*/*/test_*.sh)
 RUN_TESTS     = $(foreach t,$(TESTS),'$(t)') $(foreach s,$(SCRIPTS),'$(s) $(BUILD)') \
                 $(foreach v,$(GOLDEN_VARIANTS),$(foreach l,$(call levels,$(v)),'$(call golden_check,$(v)) $(l)')) \
-                $(foreach v,$(KERNEL_VARIANTS),'$(call kernel_check,$(v))')
+                $(foreach v,$(KERNEL_VARIANTS),'$(call kernel_check,$(v))') \
+                'tests/golden/check.sh $(X86)/golden_hashes neon' \
+                $(foreach t,$(call x86_checks,$(X86)) $(call x86_checks,$(X86_AVX2)),'$(t)')
 
 .PHONY: test run-tests
 test: setup-test ## Run every test; the last line says how many passed and failed
@@ -184,9 +202,7 @@ $(BUILD)/bench_arm $(BUILD)/bench_cache: $(BUILD)/%: $(BUILD)/obj/tests/bench/%.
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 # OpenCV picks the best instructions of the CPU when it runs; ours are told of them here. Only the CSV goes to stdout.
-X86     := build/variants/x86
-X86_OPT := -O3 -march=native
-ROUNDS  := 15
+ROUNDS := 15
 .PHONY: bench
 bench: setup-bench ## Time each pixel on this machine beside OpenCV and memcpy as CSV, and draw build/bench/bench.svg
 	$(Q)$(MAKE) --no-print-directory BUILD=$(X86) OPT='$(X86_OPT)' $(X86)/bench_x86 >&2
