@@ -5,6 +5,7 @@
 #include "firmware/safe_picture.h"
 #include "firmware/warp_steps.h"
 
+_Static_assert((int)ROOM_VIEWERS == (int)CAN_VIEWERS, "a room file may name every viewer");
 _Static_assert((int)LADDER_STEPS <= (int)DEGRADE_MAX_STEPS, "every ladder must fit");
 
 void projector_init(projector_t *projector, const room_t *room, const room_board_t *board, const hal_board_t *devices,
@@ -15,7 +16,7 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
     projector->camera = room->camera;
     projector->wall = board->wall;
     projector->kernels = kernels;
-    projector->poses = (can_poses_t){.viewer = 0};
+    projector->poses = (can_poses_t){.viewer = board->viewer};
     projector->picture = (hal_camera_frame_t){.picture = {.format = PICTURE_XRGB8888}};
     projector->has_picture = false;
     projector->picture_us = hal_time_now_us(devices->clock);

@@ -11,7 +11,7 @@
 #include "warp_fixed/method.h"
 #include "warp_fixed/wall_from_corners.h"
 
-enum { ROOM_MAX_BOARDS = 32, ROOM_MAX_NODE = 63, ROOM_NAME_LENGTH = 32, ROOM_MESSAGE_LENGTH = 512 };
+enum { ROOM_MAX_BOARDS = 32, ROOM_MAX_NODE = 63, ROOM_VIEWERS = 4, ROOM_NAME_LENGTH = 32, ROOM_MESSAGE_LENGTH = 512 };
 
 /** One projector and its wall. */
 typedef struct {
@@ -20,6 +20,7 @@ typedef struct {
     wall_corners_t corners;      /**< as measured, with the projector's size */
     wall_t wall;                 /**< fitted to them */
     const warp_method_t *method;
+    uint8_t viewer;          /**< whose poses it follows, 0 to 3; 0 unless stated */
     uint8_t border[3];       /**< R, G, B of unlit pixels */
     bool step_all;           /**< k over the whole wall instead of over what lands in the picture */
     ls_weights_t ls_weights; /**< of the camera's columns and rows; uniform unless stated */

@@ -204,8 +204,10 @@ static bool check_method(const room_checker_t *checker, const char *name, room_b
 static bool check_look(const room_checker_t *checker, const room_yaml_board_t *yaml, room_t *room, int32_t b)
 {
     room_board_t *board = &room->board[b];
-    if (!check_method(checker, yaml->method, board, b))
+    if (!check_method(checker, yaml->method, board, b) ||
+        !check_whole(checker, room_key("boards[%d].viewer", b), yaml->viewer, 0, ROOM_VIEWERS - 1))
         return false;
+    board->viewer = (uint8_t)yaml->viewer;
     for (int channel = 0; channel < 3; channel++) {
         if (!check_whole(checker, room_key("boards[%d].border[%d]", b, channel), yaml->border[channel], 0, 255))
             return false;

@@ -30,6 +30,7 @@ static const char full_room[] =
     "    projector: {width: 1920, height: 1080}\n"
     "    wall: {corners_mm: " FRONT_CORNERS "}\n"
     "    method: gauss+linear\n"
+    "    viewer: 3\n"
     "    border: [1, 2, 255]\n"
     "    step: all\n"
     "    markers: [{px: [960, 540.5], mm: [0, 1.0416667, 0]}]\n"
@@ -102,6 +103,7 @@ static void test_optional_keys_have_their_defaults(void **state)
     load_good(&room, "tests/oracle/room_eq.yaml", &heard);
     assert_string_equal(room.board[0].method->name, "mean+cubic");
     assert_int_equal(room.board[0].border[0] + room.board[0].border[1] + room.board[0].border[2], 0);
+    assert_int_equal(room.board[0].viewer, 0);
     assert_false(room.board[0].step_all);
     assert_int_equal(room.board[0].corners.marker_count, 0);
     assert_int_equal(room.bitrate, 500000);
@@ -130,6 +132,7 @@ static void test_every_key_is_read(void **state)
     assert_string_equal(front->method->name, "gauss+linear");
     static const uint8_t border[3] = {1, 2, 255};
     assert_memory_equal(front->border, border, sizeof border);
+    assert_int_equal(front->viewer, 3);
     assert_true(front->step_all);
 }
 
@@ -181,7 +184,7 @@ static void test_odd_walls_are_warned_of(void **state)
         {FRONT_CORNERS, "[[2000, -1125, 0], [-2000, -1125, 0], null, [2000, 1125, 0]]",
          "6: boards[0].wall.corners_mm: mirrored as seen from the other walls"},
         {LEFT_CORNERS, "        [[-2000, -1125, 0], [-2000, -1125, -4000], [-2000, 1125, -4000], [-2000, 1125, 0]]\n",
-         "16: boards[1].wall.corners_mm: mirrored as seen from the other walls"},
+         "17: boards[1].wall.corners_mm: mirrored as seen from the other walls"},
     };
     char path[SCRATCH_PATH_LENGTH], expected[MAX_TEXT];
     scratch_path(*state, "odd.yaml", path);
