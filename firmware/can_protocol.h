@@ -18,18 +18,23 @@
 
 /** Identifiers (11 bits) and cycle times. */
 enum {
+    CAN_ID_SYNC = 0x040,      /**< + number of the sender, which is also its rank: 0 a tracker, else a board's node */
+    CAN_ID_FOLLOW_UP = 0x080, /**< + number of the sender */
     CAN_ID_POSE_FD = 0x100,   /**< + viewer: the pose as one CAN FD frame of 32 bytes */
     CAN_ID_POSE_SET = 0x110,  /**< + 4 * viewer + part: the pose as three classic frames */
     CAN_ID_STATUS = 0x400,    /**< + node */
     CAN_ID_STAGE = 0x440,     /**< + node */
     CAN_ID_QUALITY = 0x480,   /**< + node */
+    CAN_ID_TIME = 0x4C0,      /**< + node */
     CAN_ID_HEARTBEAT = 0x700, /**< + node */
     CAN_VIEWERS = 4,          /**< there is room for viewers 0 to 3 */
     CAN_MAX_NODE = 63,        /**< node numbers are 1 to 63 */
     CAN_POSE_PARTS = 3,       /**< frames of a set: A, B, C */
+    CAN_SYNC_PERIOD_MS = 125, /**< three may be lost before a master counts as silent; 0.4 % of a 500 kbit/s bus */
     CAN_STATUS_PERIOD_MS = 100,
     CAN_STAGE_PERIOD_MS = 250,
     CAN_QUALITY_PERIOD_MS = 1000,
+    CAN_TIME_PERIOD_MS = 1000,
     CAN_HEARTBEAT_PERIOD_MS = 500
 };
 
@@ -57,7 +62,7 @@ static const uint64_t CAN_POSE_SET_WRAP_US = UINT64_C(100) << 16;
 /** A pose as it travels. */
 typedef struct {
     pose_t pose;
-    uint64_t capture_time_us; /**< on the tracker's clock; decoded: less than the message's wrap */
+    uint64_t capture_time_us; /**< in bus time; decoded: less than the message's wrap */
     can_pose_quality_t quality;
     uint8_t viewer;  /**< 0 to CAN_VIEWERS - 1 */
     uint8_t tracker; /**< which tracker measured it, 0 to 15; the set does not carry it: decoded as 0 */
@@ -102,6 +107,30 @@ can_check_t can_pose_set_decode(can_pose_t *pose, const hal_can_frame_t part[CAN
 bool can_pose_fd_encode(hal_can_frame_t *frame, const can_pose_t *pose);
 
 can_check_t can_pose_fd_decode(can_pose_t *pose, const hal_can_frame_t *frame, uint8_t viewer);
+
+/** The first message of a pair that carries bus time (bus_time.h): the moment of its last bit is the one meant. */
+typedef struct {
+    uint8_t number;  /**< of the sender, 0 to CAN_MAX_NODE */
+    uint8_t counter; /**< 0 to 14 */
+    uint8_t origin;  /**< number of the node on whose clock this bus time began, 0 to CAN_MAX_NODE */
+} can_sync_t;
+
+/** @return false when number, counter or origin is out of range. */
+bool can_sync_encode(hal_can_frame_t *frame, const can_sync_t *sync);
+
+can_check_t can_sync_decode(can_sync_t *sync, const hal_can_frame_t *frame);
+
+/** The second message: what bus time it was at that moment. */
+typedef struct {
+    uint8_t number;   /**< of the sender, 0 to CAN_MAX_NODE */
+    uint8_t counter;  /**< that of the Sync, 0 to 14 */
+    uint64_t time_us; /**< less than 2^48, which is 8.9 years */
+} can_follow_up_t;
+
+/** @return false when number, counter or time is out of range. */
+bool can_follow_up_encode(hal_can_frame_t *frame, const can_follow_up_t *follow_up);
+
+can_check_t can_follow_up_decode(can_follow_up_t *follow_up, const hal_can_frame_t *frame);
 
 /** What a board is doing. */
 typedef enum {
@@ -188,5 +217,31 @@ typedef struct {
 bool can_quality_encode(hal_can_frame_t *frame, const can_quality_t *quality);
 
 can_check_t can_quality_decode(can_quality_t *quality, const hal_can_frame_t *frame);
+
+/** How a board stands to bus time. */
+typedef enum {
+    CAN_TIME_NONE = 0,    /**< it has none, or is still finding it */
+    CAN_TIME_OWN = 1,     /**< it is the master */
+    CAN_TIME_LOCKED = 2,  /**< it follows the master */
+    CAN_TIME_HOLDOVER = 3 /**< the master is silent: it goes on with what it knows */
+} can_time_state_t;
+
+/** What a board makes of bus time, every CAN_TIME_PERIOD_MS. What is too large is sent as the largest. */
+typedef struct {
+    uint8_t node;    /**< 1 to CAN_MAX_NODE */
+    uint8_t counter; /**< 0 to 14 */
+    can_time_state_t state;
+    uint8_t master;    /**< whom it follows or followed last, 0 to CAN_MAX_NODE; its own node when it is the master */
+    int32_t drift_ppb; /**< by how much the board's clock is faster than bus time; rounded to 100, up to +-819100 */
+    uint32_t error_us; /**< within which its bus time is right, by its own estimate; up to 1023 */
+    uint32_t changes;  /**< of the master since start; sent modulo 64 */
+    uint32_t relocks;  /**< times it found bus time anew after a jump or a long silence; sent modulo 16 */
+    uint32_t lost;     /**< pairs of Sync and FollowUp that did not come whole since start; sent modulo 256 */
+} can_time_t;
+
+/** @return false when node, counter, state or master is out of range. */
+bool can_time_encode(hal_can_frame_t *frame, const can_time_t *time);
+
+can_check_t can_time_decode(can_time_t *time, const hal_can_frame_t *frame);
 
 #endif

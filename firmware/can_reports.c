@@ -15,7 +15,10 @@ static const can_field_t STAGE_NUMBER = {12, 4}, STAGE_MEAN = {16, 16}, STAGE_WO
 static const can_field_t QUALITY_STEP = {12, 4}, QUALITY_RESAMPLER = {16, 4}, QUALITY_FILTER = {20, 4},
                          QUALITY_CHANGES = {24, 16}, QUALITY_WANTED = {40, 16}, QUALITY_HOLD = {56, 8};
 
-enum { HOLD_UNIT_S = 4 };
+static const can_field_t TIME_STATE = {12, 4}, TIME_MASTER = {16, 6}, TIME_CHANGES = {22, 6}, TIME_RELOCKS = {28, 4},
+                         TIME_DRIFT = {32, 14}, TIME_ERROR = {46, 10}, TIME_LOST = {56, 8};
+
+enum { HOLD_UNIT_S = 4, DRIFT_UNIT_PPB = 100, DRIFT_LARGEST = 8191 };
 
 static bool is_node(uint32_t node)
 {
@@ -168,6 +171,53 @@ can_check_t can_quality_decode(can_quality_t *quality, const hal_can_frame_t *fr
         .changes = can_field_get(frame, QUALITY_CHANGES),
         .wanted_us = can_field_get(frame, QUALITY_WANTED),
         .hold_s = can_field_get(frame, QUALITY_HOLD) * HOLD_UNIT_S,
+    };
+    return CAN_CHECK_OK;
+}
+
+static int32_t drift_in_units(int32_t drift_ppb)
+{
+    const int64_t half = drift_ppb < 0 ? -DRIFT_UNIT_PPB / 2 : DRIFT_UNIT_PPB / 2;
+    const int32_t units = (int32_t)((drift_ppb + half) / DRIFT_UNIT_PPB);
+    return units > DRIFT_LARGEST ? DRIFT_LARGEST : units < -DRIFT_LARGEST ? -DRIFT_LARGEST : units;
+}
+
+bool can_time_encode(hal_can_frame_t *frame, const can_time_t *time)
+{
+    if (!header_fits(time->node, time->counter) || (unsigned)time->state > CAN_TIME_HOLDOVER ||
+        time->master > CAN_MAX_NODE)
+        return false;
+    *frame = can_classic_frame(CAN_ID_TIME + (uint32_t)time->node, time->counter);
+    can_field_put(frame, TIME_STATE, time->state);
+    can_field_put(frame, TIME_MASTER, time->master);
+    can_field_put(frame, TIME_CHANGES, time->changes);
+    can_field_put(frame, TIME_RELOCKS, time->relocks);
+    can_field_put(frame, TIME_DRIFT, drift_in_units(time->drift_ppb));
+    can_field_put(frame, TIME_ERROR, can_field_saturated(TIME_ERROR, time->error_us));
+    can_field_put(frame, TIME_LOST, time->lost);
+    can_classic_protect(frame);
+    return true;
+}
+
+can_check_t can_time_decode(can_time_t *time, const hal_can_frame_t *frame)
+{
+    const can_check_t check = check_report(frame, CAN_ID_TIME);
+    if (check != CAN_CHECK_OK)
+        return check;
+    const uint32_t state = can_field_get(frame, TIME_STATE);
+    const int32_t drift = can_field_get_signed(frame, TIME_DRIFT);
+    if (state > CAN_TIME_HOLDOVER || drift < -DRIFT_LARGEST)
+        return CAN_CHECK_VALUE;
+    *time = (can_time_t){
+        .node = (uint8_t)(frame->id - CAN_ID_TIME),
+        .counter = can_classic_counter(frame),
+        .state = (can_time_state_t)state,
+        .master = (uint8_t)can_field_get(frame, TIME_MASTER),
+        .drift_ppb = drift * DRIFT_UNIT_PPB,
+        .error_us = can_field_get(frame, TIME_ERROR),
+        .changes = can_field_get(frame, TIME_CHANGES),
+        .relocks = can_field_get(frame, TIME_RELOCKS),
+        .lost = can_field_get(frame, TIME_LOST),
     };
     return CAN_CHECK_OK;
 }

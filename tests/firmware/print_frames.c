@@ -125,6 +125,42 @@ static void print_qualities(void)
     }
 }
 
+static void print_sync(void)
+{
+    hal_can_frame_t frame;
+    const can_sync_t sync = {.number = 0, .counter = 9, .origin = 37};
+    check(can_sync_encode(&frame, &sync));
+    print_frame("Sync", &frame, CAN_SYNC_PERIOD_MS);
+    printf("signal SyncCounter 9\nsignal SyncOrigin 37\nsignal SyncReserved 0\n");
+    const can_follow_up_t follow_up = {.number = 0, .counter = 9, .time_us = 273849506172839};
+    check(can_follow_up_encode(&frame, &follow_up));
+    print_frame("FollowUp", &frame, CAN_SYNC_PERIOD_MS);
+    printf("signal FollowUpCounter 9\nsignal FollowUpReserved 0\nsignal FollowUpTime 273849506172839\n");
+}
+
+static void print_times(void)
+{
+    static const char *const NAME[] = {"None", "OwnMaster", "Locked", "Holdover"};
+    for (int i = 0; i <= CAN_TIME_HOLDOVER; i++) {
+        hal_can_frame_t frame;
+        const can_time_t time = {.node = 1,
+                                 .counter = (uint8_t)(11 + i),
+                                 .state = (can_time_state_t)i,
+                                 .master = (uint8_t)(40 + i),
+                                 .drift_ppb = i % 2 == 0 ? 51300 : -700,
+                                 .error_us = 777,
+                                 .changes = 55,
+                                 .relocks = 13,
+                                 .lost = 201};
+        check(can_time_encode(&frame, &time));
+        print_frame("Time", &frame, CAN_TIME_PERIOD_MS);
+        printf("signal TimeCounter %d\nsignal TimeState %d\nsignal TimeMaster %d\nsignal TimeDrift %s\n"
+               "signal TimeError 777\nsignal TimeChanges 55\nsignal TimeRelocks 13\nsignal TimeLost 201\n"
+               "named TimeState %s\n",
+               11 + i, i, 40 + i, i % 2 == 0 ? "51.3" : "-0.7", NAME[i]);
+    }
+}
+
 /* One heartbeat for each fault flag, so that no two flags can be confused. */
 static void print_heartbeats(void)
 {
@@ -163,6 +199,8 @@ int main(void)
     print_status();
     print_stages();
     print_qualities();
+    print_sync();
+    print_times();
     print_heartbeats();
     return 0;
 }

@@ -18,8 +18,11 @@ static const can_status_t STATUS = {.node = 1, .counter = 3, .step_q8 = 700, .wa
 static const can_stage_t STAGE_SENT = {.node = 1, .counter = 3, .stage = STAGE_WARP, .mean_us = 12300, .shown = 60};
 static const can_quality_t QUALITY_SENT = {
     .node = 1, .counter = 3, .step = 2, .resampler = WARP_LINEAR, .changes = 9, .hold_s = 8};
+static const can_time_t TIME_SENT = {.node = 1, .counter = 3, .state = CAN_TIME_LOCKED, .drift_ppb = -51000};
+static const can_sync_t SYNC_SENT = {.number = 1, .counter = 3};
+static const can_follow_up_t FOLLOW_UP_SENT = {.number = 1, .counter = 3, .time_us = 12345678901234};
 
-typedef enum { SET_A, SET_B, SET_C, FD, HEART, STAT, STAGE, QUALITY, MESSAGES } message_t;
+typedef enum { SET_A, SET_B, SET_C, FD, HEART, STAT, STAGE, QUALITY, TIME, SYNC, FOLLOW_UP, MESSAGES } message_t;
 
 static void encode_one(hal_can_frame_t *frame, message_t message, const can_pose_t *pose)
 {
@@ -44,8 +47,17 @@ static void encode_one(hal_can_frame_t *frame, message_t message, const can_pose
         assert_true(can_stage_encode(frame, &STAGE_SENT));
         break;
     case QUALITY:
-    case MESSAGES:
         assert_true(can_quality_encode(frame, &QUALITY_SENT));
+        break;
+    case TIME:
+        assert_true(can_time_encode(frame, &TIME_SENT));
+        break;
+    case SYNC:
+        assert_true(can_sync_encode(frame, &SYNC_SENT));
+        break;
+    case FOLLOW_UP:
+    case MESSAGES:
+        assert_true(can_follow_up_encode(frame, &FOLLOW_UP_SENT));
         break;
     }
 }
@@ -60,12 +72,18 @@ static can_check_t decode_any(const hal_can_frame_t *frame, uint8_t viewer)
     can_status_t status;
     can_stage_t stage;
     can_quality_t quality;
+    can_time_t time;
+    can_sync_t sync;
+    can_follow_up_t follow_up;
     const can_check_t check[] = {can_pose_part_check(frame, viewer, &part, &counter),
                                  can_pose_fd_decode(&pose, frame, viewer),
                                  can_heartbeat_decode(&heartbeat, frame),
                                  can_status_decode(&status, frame),
                                  can_stage_decode(&stage, frame),
-                                 can_quality_decode(&quality, frame)};
+                                 can_quality_decode(&quality, frame),
+                                 can_time_decode(&time, frame),
+                                 can_sync_decode(&sync, frame),
+                                 can_follow_up_decode(&follow_up, frame)};
     for (size_t i = 0; i < sizeof check / sizeof check[0]; i++)
         if (check[i] != CAN_CHECK_OTHER)
             return check[i];
@@ -179,6 +197,30 @@ static void test_reserved_values_under_a_right_crc_are_refused(void **state)
     }
 }
 
+static void test_reserved_values_of_bus_time_under_a_right_crc_are_refused(void **state)
+{
+    (void)state;
+    hal_can_frame_t frame;
+    can_time_t time = {.node = 77};
+    assert_true(can_time_encode(&frame, &TIME_SENT));
+    frame.data[1] = 0x43; /* state 4 */
+    sign_p01(&frame);
+    assert_int_equal(can_time_decode(&time, &frame), CAN_CHECK_VALUE);
+    assert_true(can_time_encode(&frame, &TIME_SENT));
+    frame.data[4] = 0x00; /* the drift that has no opposite */
+    frame.data[5] = 0x20;
+    sign_p01(&frame);
+    assert_int_equal(can_time_decode(&time, &frame), CAN_CHECK_VALUE);
+    assert_int_equal(time.node, 77);
+
+    can_sync_t sync = {.number = 77};
+    assert_true(can_sync_encode(&frame, &SYNC_SENT));
+    frame.data[2] = 0x04; /* origin 64 */
+    sign_p01(&frame);
+    assert_int_equal(can_sync_decode(&sync, &frame), CAN_CHECK_VALUE);
+    assert_int_equal(sync.number, 77);
+}
+
 static void test_parts_of_different_sets_and_wrong_order_are_refused(void **state)
 {
     (void)state;
@@ -207,6 +249,7 @@ int main(void)
         cmocka_unit_test(test_every_single_bit_error_is_refused),
         cmocka_unit_test(test_wrong_kind_and_length_are_refused),
         cmocka_unit_test(test_reserved_values_under_a_right_crc_are_refused),
+        cmocka_unit_test(test_reserved_values_of_bus_time_under_a_right_crc_are_refused),
         cmocka_unit_test(test_parts_of_different_sets_and_wrong_order_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -149,6 +149,54 @@ static void test_quality_comes_back_saturated(void **state)
         assert_false(can_quality_encode(&frame, &bad[i]));
 }
 
+static void test_time_comes_back_rounded_and_saturated(void **state)
+{
+    (void)state;
+    const can_time_t time = {.node = 3,
+                             .counter = 14,
+                             .state = CAN_TIME_HOLDOVER,
+                             .master = 63,
+                             .drift_ppb = -50051,
+                             .error_us = 1023,
+                             .changes = 65,
+                             .relocks = 17,
+                             .lost = 257};
+    hal_can_frame_t frame;
+    can_time_t got;
+    assert_true(can_time_encode(&frame, &time));
+    assert_int_equal(frame.id, 0x4C3);
+    assert_int_equal(can_time_decode(&got, &frame), CAN_CHECK_OK);
+    assert_int_equal(got.node, 3);
+    assert_int_equal(got.counter, 14);
+    assert_int_equal(got.state, CAN_TIME_HOLDOVER);
+    assert_int_equal(got.master, 63);
+    assert_int_equal(got.drift_ppb, -50100);
+    assert_int_equal(got.error_us, 1023);
+    assert_int_equal(got.changes, 1);
+    assert_int_equal(got.relocks, 1);
+    assert_int_equal(got.lost, 1);
+
+    can_time_t large = time;
+    large.drift_ppb = INT32_MIN;
+    large.error_us = UINT32_MAX;
+    assert_true(can_time_encode(&frame, &large));
+    assert_int_equal(can_time_decode(&got, &frame), CAN_CHECK_OK);
+    assert_int_equal(got.drift_ppb, -819100);
+    assert_int_equal(got.error_us, 1023);
+    large.drift_ppb = INT32_MAX;
+    assert_true(can_time_encode(&frame, &large));
+    assert_int_equal(can_time_decode(&got, &frame), CAN_CHECK_OK);
+    assert_int_equal(got.drift_ppb, 819100);
+
+    can_time_t bad[4] = {time, time, time, time};
+    bad[0].node = 64;
+    bad[1].counter = 15;
+    bad[2].state = (can_time_state_t)4;
+    bad[3].master = 64;
+    for (int i = 0; i < 4; i++)
+        assert_false(can_time_encode(&frame, &bad[i]));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -156,6 +204,7 @@ int main(void)
         cmocka_unit_test(test_status_comes_back_saturated),
         cmocka_unit_test(test_stages_come_back_saturated),
         cmocka_unit_test(test_quality_comes_back_saturated),
+        cmocka_unit_test(test_time_comes_back_rounded_and_saturated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

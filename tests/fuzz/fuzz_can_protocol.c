@@ -104,6 +104,42 @@ static void check_quality(const hal_can_frame_t *frame)
                "a quality stays the same");
 }
 
+static void check_time(const hal_can_frame_t *frame)
+{
+    can_time_t time, again;
+    hal_can_frame_t encoded;
+    if (can_time_decode(&time, frame) != CAN_CHECK_OK)
+        return;
+    fuzz_check(can_time_encode(&encoded, &time), "a decoded time can be encoded");
+    fuzz_check(can_time_decode(&again, &encoded) == CAN_CHECK_OK, "an encoded time can be decoded");
+    fuzz_check(time.node == again.node && time.counter == again.counter && time.state == again.state &&
+                   time.master == again.master && time.drift_ppb == again.drift_ppb &&
+                   time.error_us == again.error_us && time.changes == again.changes && time.relocks == again.relocks &&
+                   time.lost == again.lost,
+               "a time stays the same");
+}
+
+static void check_sync(const hal_can_frame_t *frame)
+{
+    can_sync_t sync, sync_again;
+    can_follow_up_t follow_up, follow_up_again;
+    hal_can_frame_t encoded;
+    if (can_sync_decode(&sync, frame) == CAN_CHECK_OK) {
+        fuzz_check(can_sync_encode(&encoded, &sync), "a decoded sync can be encoded");
+        fuzz_check(can_sync_decode(&sync_again, &encoded) == CAN_CHECK_OK, "an encoded sync can be decoded");
+        fuzz_check(sync.number == sync_again.number && sync.counter == sync_again.counter &&
+                       sync.origin == sync_again.origin,
+                   "a sync stays the same");
+    }
+    if (can_follow_up_decode(&follow_up, frame) == CAN_CHECK_OK) {
+        fuzz_check(can_follow_up_encode(&encoded, &follow_up), "a decoded follow-up can be encoded");
+        fuzz_check(can_follow_up_decode(&follow_up_again, &encoded) == CAN_CHECK_OK, "an encoded one can be decoded");
+        fuzz_check(follow_up.number == follow_up_again.number && follow_up.counter == follow_up_again.counter &&
+                       follow_up.time_us == follow_up_again.time_us,
+                   "a follow-up stays the same");
+    }
+}
+
 /* A pose with any numbers in it: the encoders refuse it, or what they write decodes. */
 static void check_encoders(input_t *input)
 {
@@ -139,6 +175,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             check_status(&frame[i]);
             check_stage(&frame[i]);
             check_quality(&frame[i]);
+            check_time(&frame[i]);
+            check_sync(&frame[i]);
         }
         check_pose_set(frame, viewer);
     }

@@ -23,14 +23,16 @@ hal_can_frame_t input_frame(input_t *input)
     const uint8_t kind = input_byte(input);
     const bool fd = (kind & IS_FD) != 0;
     static const uint16_t classic_ids[] = {CAN_ID_POSE_SET,     CAN_ID_POSE_SET + 1, CAN_ID_POSE_SET + 2,
-                                           CAN_ID_POSE_SET + 4, CAN_ID_STATUS,       CAN_ID_HEARTBEAT};
+                                           CAN_ID_POSE_SET + 4, CAN_ID_STATUS,       CAN_ID_HEARTBEAT,
+                                           CAN_ID_SYNC,         CAN_ID_FOLLOW_UP,    CAN_ID_TIME};
+    enum { CLASSIC_IDS = sizeof classic_ids / sizeof classic_ids[0] };
     hal_can_frame_t frame = {.fd = fd, .bit_rate_switch = fd, .length = fd ? 32 : 8};
     if (kind & ANY_IDENTIFIER)
         frame.id = (uint32_t)input_bits(input, 4) & 0x1FFFFFFF;
     else if (fd)
         frame.id = CAN_ID_POSE_FD + input_byte(input) % CAN_VIEWERS;
     else
-        frame.id = classic_ids[input_byte(input) % 6] + (uint32_t)(kind >> 5);
+        frame.id = classic_ids[input_byte(input) % CLASSIC_IDS] + (uint32_t)(kind >> 5);
     frame.extended = (kind & IS_EXTENDED) != 0 || frame.id > 0x7FF;
     if (kind & ANY_LENGTH)
         frame.length = lengths[input_byte(input) % (fd ? 16 : 9)];
