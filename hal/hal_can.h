@@ -15,6 +15,8 @@ enum { HAL_CAN_MAX_LENGTH = 64 };
 /** One data frame. Remote frames are never delivered. */
 typedef struct {
     int64_t time_us; /**< received: when its last bit was seen, on hal_time's clock; ignored when sending */
+    bool own;        /**< sending: hal_can_receive() shall hand it back once it is sent, stamped as a received one;
+                          received: it is such a frame */
     uint32_t id;     /**< 11 bits, or 29 when extended */
     bool extended;
     bool fd;                          /**< a CAN FD frame; else a classic one */

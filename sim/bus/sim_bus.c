@@ -23,6 +23,7 @@ sim_bus_t *sim_bus_create(const sim_bus_config_t *config)
     bus->bitrate = config->bitrate;
     bus->data_bitrate = config->fd ? config->data_bitrate : config->bitrate;
     bus->fd = config->fd;
+    bus->seed = config->seed;
     bus->random = (rng_t){config->seed};
     bus->start_ns = config->start_us * 1000;
     bus->now_ns = bus->free_ns = bus->window_start_ns = bus->start_ns;
@@ -48,6 +49,7 @@ hal_can_t *sim_bus_attach(sim_bus_t *bus)
     can->bus = bus;
     can->index = bus->count;
     can->plugged = true;
+    can->random = (rng_t){bus->seed + (uint64_t)can->index};
     bus->controller[bus->count++] = can;
     return can;
 }
@@ -212,8 +214,11 @@ static void end_frame(sim_bus_t *bus)
         sim_can_was_sent(wire->sender);
     hal_can_frame_t frame = wire->pending.frame;
     frame.time_us = bus->now_ns / 1000;
+    frame.own = false;
     const int number = wire->sender == NULL ? SIM_BUS_FLOOD_SENDER : wire->sender->index;
     sim_bus_deliver(bus, wire->sender, &frame);
+    if (wire->sender != NULL && wire->pending.frame.own)
+        sim_can_deliver(wire->sender, &wire->pending.frame);
     if (bus->log != NULL)
         bus->log(bus->log_context, number, &frame);
 }

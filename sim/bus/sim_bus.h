@@ -52,6 +52,17 @@ hal_can_t *sim_bus_attach(sim_bus_t *bus);
 /** Send in the order queued from now on, like the queue of a SocketCAN interface, whatever the identifiers. */
 void sim_can_keep_order(hal_can_t *can);
 
+/** @return What a controller's clock shows when the bus is at time_us; never less for a later moment. */
+typedef int64_t sim_can_stamp_fn(void *context, int64_t time_us);
+
+/**
+ * How a controller stamps what it hears from now on: on a clock of its own, and late by chance, uniformly 0 to
+ * jitter_us; the frame can be had no earlier. At first: on the bus's own time, at once.
+ *
+ * @param stamp  NULL for the bus's own time.
+ */
+void sim_can_set_stamps(hal_can_t *can, sim_can_stamp_fn *stamp, void *context, uint32_t jitter_us);
+
 /** Run the bus up to a moment. An earlier moment than now changes nothing. A frame still on the wire goes on later. */
 void sim_bus_advance(sim_bus_t *bus, int64_t until_us);
 

@@ -34,6 +34,10 @@ struct hal_can {
     bool plugged, stuck, keep_order, bus_off;
     bool in_flight; /**< one frame has left the queue and is on the wire; its place is kept */
     sim_can_stats_t stats;
+    sim_can_stamp_fn *stamp;
+    void *stamp_context;
+    uint32_t jitter_us;
+    rng_t random;          /**< of the jitter */
     int64_t delay_ns;      /**< of delivery */
     int64_t last_due_ns;   /**< of the newest frame in the receive queue */
     int64_t recovered_ns;  /**< end of a running recovery from bus-off; 0 when none runs */
@@ -61,6 +65,7 @@ struct sim_bus {
     int64_t free_ns; /**< the wire is free for a new frame from here on */
     sim_wire_t wire;
     uint64_t sequence;
+    uint64_t seed;
     rng_t random;
     sim_bus_stats_t stats;   /**< busy_ns runs ahead to free_ns */
     int64_t window_start_ns; /**< of the window now is in */

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The simulated CAN controller: its queues, its error counters, and the calls of hal_can.h.
+#include <stddef.h>
+
 #include "hal/hal_can.h"
 #include "sim/bus/sim_bus_internal.h"
 #include "sim/bus/sim_can_bits.h"
@@ -120,15 +122,24 @@ void sim_can_deliver(hal_can_t *can, const hal_can_frame_t *frame)
         can->stats.overruns++;
         return;
     }
-    const int64_t due_ns = can->bus->now_ns + can->delay_ns;
+    const uint64_t jitter_us = can->jitter_us == 0 ? 0 : rng_next(&can->random) % (can->jitter_us + UINT64_C(1));
+    const int64_t due_ns = can->bus->now_ns + can->delay_ns + (int64_t)jitter_us * 1000;
     if (can->receive_count == 0 || due_ns > can->last_due_ns)
         can->last_due_ns = due_ns;
     sim_can_heard_t *heard = &can->receive[(can->receive_first + can->receive_count) % SIM_CAN_RECEIVE_FRAMES];
     heard->due_ns = can->last_due_ns;
     heard->frame = *frame;
-    heard->frame.time_us = can->last_due_ns / 1000;
+    const int64_t time_us = can->last_due_ns / 1000;
+    heard->frame.time_us = can->stamp == NULL ? time_us : can->stamp(can->stamp_context, time_us);
     can->receive_count++;
     can->stats.received++;
+}
+
+void sim_can_set_stamps(hal_can_t *can, sim_can_stamp_fn *stamp, void *context, uint32_t jitter_us)
+{
+    can->stamp = stamp;
+    can->stamp_context = context;
+    can->jitter_us = jitter_us;
 }
 
 void sim_can_keep_order(hal_can_t *can)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The camera in the simulator (hal/hal_camera.h): plays a video, and fails on demand.
+#include "sim/devices/sim_clock.h"
 #include "sim/devices/sim_camera.h"
 
 #include <assert.h>
@@ -200,7 +201,9 @@ static bool deliver(hal_camera_t *camera, int64_t captured, char error[FILE_ERRO
         camera->counts.corrupted++;
     }
     forget_ready(camera);
-    buffer->frame.capture_time_us = sim_rate_time_us(&camera->settings.rate, captured);
+    const int64_t time_us = sim_rate_time_us(&camera->settings.rate, captured);
+    const hal_time_t *clock = camera->settings.clock;
+    buffer->frame.capture_time_us = clock == NULL ? time_us : sim_clock_shows_us(clock, time_us);
     buffer->frame.sequence = (uint32_t)picture;
     buffer->state = BUFFER_READY;
     camera->delivered = picture;

@@ -7,10 +7,11 @@
 #include <stdint.h>
 
 #include "hal/hal_camera.h"
+#include "hal/hal_time.h"
 #include "sim/devices/sim_rate.h"
 #include "sim/files/video_file.h"
 
-/** All times are on the board's own clock (hal/hal_time.h). */
+/** All times are the simulation's; the HAL tells capture times on the board's clock. */
 typedef struct {
     video_t *video;          /**< played; may be shared by cameras of one thread; must outlive the camera */
     int32_t width, height;   /**< as given to video_open() */
@@ -18,6 +19,7 @@ typedef struct {
     sim_rate_t rate;         /**< picture n is captured at beat n and shows video frame n; none before beat 0;
                                   frames = 0 stands for the video's own rate */
     int64_t latency_us;      /**< from capture_time_us to when the picture can be taken; 0 or more */
+    const hal_time_t *clock; /**< the board's; must outlive the camera; NULL: it shows the simulation's time */
     uint32_t seed;           /**< of all chance in the faults: same seed, same faults */
 } sim_camera_settings_t;
 

@@ -74,9 +74,14 @@ int64_t sim_clock_shows_us(const hal_time_t *clock, int64_t time_us)
     return time_us + settings->offset_us + drifted_us;
 }
 
+int64_t sim_clock_time_us(const hal_time_t *clock)
+{
+    return clock->settings.real ? sim_clock_monotonic_us() : clock->now_us;
+}
+
 int64_t hal_time_now_us(const hal_time_t *clock)
 {
-    return sim_clock_shows_us(clock, clock->settings.real ? sim_clock_monotonic_us() : clock->now_us);
+    return sim_clock_shows_us(clock, sim_clock_time_us(clock));
 }
 
 bool sim_clock_is_real(const hal_time_t *clock)

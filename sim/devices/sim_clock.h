@@ -35,6 +35,9 @@ void sim_clock_set_us(hal_time_t *clock, int64_t time_us);
  */
 void sim_clock_work(hal_time_t *clock, int64_t work_us);
 
+/** @return The simulation's time t, as this clock knows it. */
+int64_t sim_clock_time_us(const hal_time_t *clock);
+
 /** @return What the board's clock shows when the simulation's time is t; for any t from the epoch on. */
 int64_t sim_clock_shows_us(const hal_time_t *clock, int64_t time_us);
 

@@ -56,7 +56,7 @@ hal_display_t *sim_display_create(const sim_display_settings_t *settings, char e
     }
     *display = (hal_display_t){.settings = *settings, .shown = NONE, .late = NONE, .waiting = NONE, .borrowed = NONE};
     display->pixels = pixels;
-    display->blank = sim_rate_beat_at(&settings->blanks, hal_time_now_us(settings->clock));
+    display->blank = sim_rate_beat_at(&settings->blanks, sim_clock_time_us(settings->clock));
     for (size_t i = 0; i < BUFFERS; i++)
         display->buffers[i].data[0] = pixels + i * bytes;
     display->converted = (image_t){pixels + BUFFERS * bytes, settings->width, settings->height, stride, IMAGE_XRGB8888};
@@ -134,7 +134,7 @@ void sim_display_advance(hal_display_t *display, int64_t now_us)
 
 const picture_t *sim_display_scanned(const hal_display_t *display)
 {
-    if (display->shown == NONE || is_unplugged(display, hal_time_now_us(display->settings.clock)))
+    if (display->shown == NONE || is_unplugged(display, sim_clock_time_us(display->settings.clock)))
         return NULL;
     return &display->buffers[display->shown];
 }
@@ -166,7 +166,7 @@ bool hal_display_takes(const hal_display_t *display, picture_format_t format)
 hal_status_t hal_display_back_buffer(hal_display_t *display, picture_format_t format, picture_matrix_t matrix,
                                      picture_t *buffer)
 {
-    const int64_t now_us = hal_time_now_us(display->settings.clock);
+    const int64_t now_us = sim_clock_time_us(display->settings.clock);
     sim_display_advance(display, now_us);
     if (!hal_display_takes(display, format))
         return HAL_BAD_CALL;
@@ -186,7 +186,7 @@ hal_status_t hal_display_back_buffer(hal_display_t *display, picture_format_t fo
 
 hal_status_t hal_display_present(hal_display_t *display)
 {
-    const int64_t now_us = hal_time_now_us(display->settings.clock);
+    const int64_t now_us = sim_clock_time_us(display->settings.clock);
     sim_display_advance(display, now_us);
     if (display->borrowed == NONE)
         return HAL_BAD_CALL;
@@ -207,19 +207,20 @@ hal_status_t hal_display_present(hal_display_t *display)
 int64_t hal_display_next_vblank_us(const hal_display_t *display)
 {
     const sim_rate_t *blanks = &display->settings.blanks;
-    return sim_rate_time_us(blanks, sim_rate_beat_at(blanks, hal_time_now_us(display->settings.clock)) + 1);
+    const hal_time_t *clock = display->settings.clock;
+    return sim_clock_shows_us(clock, sim_rate_time_us(blanks, sim_rate_beat_at(blanks, sim_clock_time_us(clock)) + 1));
 }
 
 hal_status_t hal_display_wait_vblank(hal_display_t *display)
 {
     const hal_time_t *clock = display->settings.clock;
-    const int64_t begin_us = hal_time_now_us(clock);
+    const bool unplugged = is_unplugged(display, sim_clock_time_us(clock));
     const int64_t next_us = hal_display_next_vblank_us(display);
     if (sim_clock_is_real(clock)) {
         if (display->settings.while_waiting != NULL)
             display->settings.while_waiting(display->settings.context);
-        sim_clock_sleep_until_us(clock, is_unplugged(display, begin_us) ? begin_us + NO_BLANK_US : next_us);
+        sim_clock_sleep_until_us(clock, unplugged ? hal_time_now_us(clock) + NO_BLANK_US : next_us);
     }
-    sim_display_advance(display, hal_time_now_us(clock));
-    return is_unplugged(display, begin_us) ? HAL_IO : HAL_OK;
+    sim_display_advance(display, sim_clock_time_us(clock));
+    return unplugged ? HAL_IO : HAL_OK;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The display in the simulator (hal/hal_display.h): pictures in memory, blanks in the board's time, faults on demand.
+// The display in the simulator (hal/hal_display.h): pictures in memory, blanks of a common time, faults on demand.
 #ifndef SIM_DEVICES_SIM_DISPLAY_H
 #define SIM_DEVICES_SIM_DISPLAY_H
 
@@ -18,7 +18,8 @@ typedef struct {
     int32_t width, height;   /**< of the panel, pixels */
     picture_format_t format; /**< NV12 or YUYV: taken besides XRGB8888; XRGB8888: no other is */
     hal_time_t *clock;       /**< the board's; must outlive the display */
-    sim_rate_t blanks;       /**< vertical blanks, on that clock: rate and phase */
+    sim_rate_t
+        blanks; /**< vertical blanks, in the simulation's time: rate and phase; the HAL tells them on the clock */
 
     /**
      * With a real clock: called by hal_display_wait_vblank() before it sleeps, so that a program without a simulator
@@ -30,7 +31,8 @@ typedef struct {
 
 /** What goes wrong. All 0: nothing. */
 typedef struct {
-    int64_t unplugged_until_us; /**< until then the wall is dark, calls return HAL_IO, nothing is flipped; 0: never */
+    int64_t unplugged_until_us; /**< until then, in the simulation's time, the wall is dark, calls return HAL_IO,
+                                   nothing is flipped; 0: never */
     uint32_t refuse_next;       /**< refuse this many presented pictures with HAL_IO; counts down */
     uint32_t late_next;         /**< this many flips come late; counts down */
     uint32_t late_blanks;       /**< by how many blanks a late flip is late; 0 stands for 1 */
@@ -54,7 +56,7 @@ void sim_display_destroy(hal_display_t *display);
  * Let time pass: perform every blank up to and including now_us. The HAL calls do the same for the clock's time, so a
  * picture presented after a blank never counts for it.
  *
- * @param now_us  On the board's clock; a time before that of the last call changes nothing.
+ * @param now_us  In the simulation's time; a time before that of the last call changes nothing.
  */
 void sim_display_advance(hal_display_t *display, int64_t now_us);
 

@@ -9,6 +9,7 @@
 #include "sim/devices/sim_display.h"
 #include "sim/devices/sim_gpio.h"
 #include "sim/devices/sim_watchdog.h"
+#include "sim/rng.h"
 
 typedef struct {
     hal_board_t devices;
@@ -23,6 +24,31 @@ struct sim_world {
     node_t node[ROOM_MAX_BOARDS];
 };
 
+static int64_t stamp(void *context, int64_t time_us)
+{
+    return sim_clock_shows_us(context, time_us);
+}
+
+/* The board's clock, and its controller's stamps on it. */
+static bool open_clock(sim_world_t *world, int32_t index, char error[FILE_ERROR_LENGTH])
+{
+    const sim_world_config_t *config = &world->config;
+    const sim_world_clocks_t *off = &config->clocks;
+    hal_board_t *devices = &world->node[index].devices;
+    rng_t random = {config->seed + ((uint64_t)index << 32)};
+    const double offset_us = (double)off->offset_us * rng_unit(&random);
+    const double drift_ppb = (double)off->drift_ppb * (2.0 * rng_unit(&random) - 1.0);
+    const sim_clock_settings_t clock = {.real = config->real,
+                                        .epoch_us = config->start_us,
+                                        .offset_us = (int64_t)offset_us,
+                                        .drift_ppb = (int32_t)drift_ppb};
+    devices->clock = sim_clock_create(&clock, error);
+    if (devices->clock == NULL)
+        return false;
+    sim_can_set_stamps(devices->can, stamp, devices->clock, off->jitter_us);
+    return true;
+}
+
 static bool open_devices(sim_world_t *world, int32_t index, char error[FILE_ERROR_LENGTH])
 {
     const sim_world_config_t *config = &world->config;
@@ -31,9 +57,7 @@ static bool open_devices(sim_world_t *world, int32_t index, char error[FILE_ERRO
     devices->can = sim_bus_attach(world->bus);
     if (devices->can == NULL)
         return file_error(error, board->name, "no room on the bus, or out of memory");
-    const sim_clock_settings_t clock = {.real = config->real, .epoch_us = config->start_us};
-    devices->clock = sim_clock_create(&clock, error);
-    if (devices->clock == NULL)
+    if (!open_clock(world, index, error))
         return false;
     const video_info_t *video = video_info(config->video);
     const sim_camera_settings_t camera = {
@@ -42,6 +66,7 @@ static bool open_devices(sim_world_t *world, int32_t index, char error[FILE_ERRO
         .height = config->room->camera.height,
         .format = config->camera,
         .rate = {config->start_us, video->rate_frames, video->rate_seconds},
+        .clock = devices->clock,
         .seed = (uint32_t)config->seed + (uint32_t)index,
     };
     devices->camera = sim_camera_create(&camera, error);
@@ -145,7 +170,7 @@ bool sim_world_advance(sim_world_t *world, int64_t now_us, char error[FILE_ERROR
     for (int32_t i = 0; i < world->config.room->board_count; i++) {
         node_t *node = &world->node[i];
         const hal_board_t *devices = &node->devices;
-        node->busy = !world->config.real && hal_time_now_us(devices->clock) > now_us;
+        node->busy = !world->config.real && sim_clock_time_us(devices->clock) > now_us;
         if (node->busy)
             continue;
         if (!world->config.real)

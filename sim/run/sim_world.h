@@ -17,6 +17,13 @@ typedef struct sim_world sim_world_t;
 
 enum { SIM_WORLD_WATCHDOG_US = 2000000 };
 
+/** What the boards' clocks are off by: each its own, drawn from the world's seed. All 0: all show the world's time. */
+typedef struct {
+    int64_t offset_us;  /**< from 0 to this */
+    int32_t drift_ppb;  /**< up to this either way */
+    uint32_t jitter_us; /**< every stamp of a frame is late by 0 to this */
+} sim_world_clocks_t;
+
 typedef struct {
     const room_t *room;            /**< must outlive the world */
     video_t *video;                /**< what every camera plays; must outlive the world */
@@ -27,7 +34,8 @@ typedef struct {
     bool real;                     /**< clocks run by themselves (CLOCK_MONOTONIC); else in virtual time */
     int64_t start_us;              /**< now, when the world begins: the cameras' first picture */
     sim_rate_t refresh;            /**< vertical blanks of all displays; beat 0 is after start_us */
-    uint64_t seed;                 /**< of everything random, when faults are asked for */
+    uint64_t seed;                 /**< of everything random, when faults or clocks are asked for */
+    sim_world_clocks_t clocks;
 } sim_world_config_t;
 
 /**

@@ -11,8 +11,29 @@
 #include <cmocka.h>
 
 #include "sim/files/png_file.h"
+#include "sim/devices/sim_clock.h"
 #include "tests/support/camera_rig.h"
 #include "tests/support/scratch.h"
+
+static void test_capture_times_are_told_on_the_boards_clock(void **state)
+{
+    (void)state;
+    char error[FILE_ERROR_LENGTH];
+    camera_rig_t rig = camera_rig_open("pattern");
+    const sim_clock_settings_t ahead = {.offset_us = 7000000};
+    hal_time_t *clock = sim_clock_create(&ahead, error);
+    sim_camera_settings_t settings = camera_rig_settings(rig.video);
+    settings.clock = clock;
+    sim_camera_destroy(rig.camera);
+    rig.camera = sim_camera_create(&settings, error);
+    hal_camera_frame_t frame;
+    camera_rig_advance(&rig, camera_rig_time_us(3));
+    assert_int_equal(hal_camera_take(rig.camera, &frame), HAL_OK);
+    assert_int_equal(frame.capture_time_us, camera_rig_time_us(3) + 7000000);
+    hal_camera_release(rig.camera, &frame);
+    camera_rig_close(&rig);
+    sim_clock_destroy(clock);
+}
 
 static void test_pictures_come_on_time(void **state)
 {
@@ -83,7 +104,8 @@ static void test_gray_latency_and_the_video_s_own_rate(void **state)
     assert_int_equal(frame.capture_time_us, RIG_START_US + 100000);
     assert_int_equal(frame.picture.format, PICTURE_GRAY8);
     assert_int_equal(frame.picture.data[0][0], 255);
-    assert_int_equal(frame.picture.data[0][frame.picture.stride[0] + 5], (19595 * 191 + 38470 * 191 + 7471 * 191 + 32768) >> 16);
+    assert_int_equal(frame.picture.data[0][frame.picture.stride[0] + 5],
+                     (19595 * 191 + 38470 * 191 + 7471 * 191 + 32768) >> 16);
     sim_camera_destroy(gray.camera);
     camera_rig_close(&rig);
 }
@@ -137,11 +159,9 @@ static void test_bad_settings(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_pictures_come_on_time),
-        cmocka_unit_test(test_lent_pictures_stay),
-        cmocka_unit_test(test_gray_latency_and_the_video_s_own_rate),
-        cmocka_unit_test(test_a_video_that_vanishes),
-        cmocka_unit_test(test_bad_settings),
+        cmocka_unit_test(test_pictures_come_on_time), cmocka_unit_test(test_capture_times_are_told_on_the_boards_clock),
+        cmocka_unit_test(test_lent_pictures_stay),    cmocka_unit_test(test_gray_latency_and_the_video_s_own_rate),
+        cmocka_unit_test(test_a_video_that_vanishes), cmocka_unit_test(test_bad_settings),
     };
     return cmocka_run_group_tests(tests, scratch_set_up, scratch_tear_down);
 }

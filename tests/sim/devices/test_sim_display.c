@@ -178,6 +178,26 @@ static void test_a_real_clock_is_waited_for(void **state)
     display_rig_close(&rig);
 }
 
+/* The blanks of all displays are at the same moments; each board is told them on its own clock. */
+static void test_blanks_are_told_on_the_boards_clock(void **state)
+{
+    (void)state;
+    char error[FILE_ERROR_LENGTH];
+    const sim_clock_settings_t fast = {.offset_us = 7000000, .drift_ppb = 1000000};
+    hal_time_t *clock = sim_clock_create(&fast, error);
+    sim_display_settings_t settings = display_rig_settings(clock);
+    const display_rig_t rig = {clock, sim_display_create(&settings, error)};
+    sim_clock_set_us(clock, display_rig_blank_us(59) + 1);
+    const int64_t expected_us = display_rig_blank_us(60) + 7000000 + display_rig_blank_us(60) / 1000;
+    assert_int_equal(hal_display_next_vblank_us(rig.display), expected_us);
+    assert_int_equal(display_rig_draw(&rig, 3), HAL_OK);
+    sim_display_advance(rig.display, display_rig_blank_us(60) - 1);
+    assert_int_equal(display_rig_wall(&rig), -1);
+    sim_display_advance(rig.display, display_rig_blank_us(60));
+    assert_int_equal(display_rig_wall(&rig), 3);
+    display_rig_close(&rig);
+}
+
 static void test_bad_settings(void **state)
 {
     (void)state;
@@ -209,6 +229,7 @@ int main(void)
         cmocka_unit_test(test_borrowing_rules),
         cmocka_unit_test(test_blanks_before_the_first_one),
         cmocka_unit_test(test_other_formats),
+        cmocka_unit_test(test_blanks_are_told_on_the_boards_clock),
         cmocka_unit_test(test_bad_settings),
         cmocka_unit_test(test_a_real_clock_is_waited_for),
     };
