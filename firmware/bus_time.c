@@ -7,6 +7,7 @@
 enum {
     ONE_Q12 = 1 << 12,
     SPREAD_MEMORY = 128,
+    BEGIN_SPREAD_US = 50,   /* of an own clock, should it have to follow later */
     FIRST_SPREAD_US = 250,  /* until pairs have shown it */
     LEAST_LIMIT_US = 50,    /* how far a pair may count, when stamps hardly scatter */
     LEAST_APART_US = 60000, /* pairs nearer to each other say little of the rate */
@@ -45,6 +46,9 @@ void bus_time_begin(bus_time_t *time, int64_t local_us, int64_t bus_us)
                          .local_us = local_us,
                          .offset_q12 = (bus_us - local_us) * ONE_Q12,
                          .paired_us = local_us,
+                         .locked = true,
+                         .pairs = BUS_TIME_MEMORY,
+                         .spread_q12 = BEGIN_SPREAD_US * ONE_Q12,
                          .relocks = time->relocks + time->known};
 }
 
@@ -144,7 +148,8 @@ void bus_time_pair(bus_time_t *time, int64_t local_us, int64_t bus_us)
 
 void bus_time_keep(bus_time_t *time, int64_t now_us)
 {
-    if (!time->known || now_us - time->local_us < INT64_C(1) << 36)
+    time->paired_us = now_us;
+    if (now_us - time->local_us < INT64_C(1) << 36)
         return;
     time->offset_q12 = offset_q12_at(time, now_us);
     time->local_us = now_us;

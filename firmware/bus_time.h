@@ -50,7 +50,7 @@ typedef struct {
     uint32_t relocks;               /**< lines found in place of an older one, since start */
 } bus_time_t;
 
-/** Begin a bus time that runs as the board's own clock: what the first master of a bus does. */
+/** Begin a bus time that runs as the board's own clock: what the first master of a bus does. Locked from the start. */
 void bus_time_begin(bus_time_t *time, int64_t local_us, int64_t bus_us);
 
 /**
@@ -61,7 +61,9 @@ void bus_time_begin(bus_time_t *time, int64_t local_us, int64_t bus_us);
  */
 void bus_time_pair(bus_time_t *time, int64_t local_us, int64_t bus_us);
 
-/** Keep the line near now; for the master, who takes no pairs. Changes nothing else. Call it once an hour or oftener.
+/**
+ * Keep the line as it is and as good as it is: what the master does, who takes no pairs. There must be a line. Call it
+ * once an hour or oftener.
  */
 void bus_time_keep(bus_time_t *time, int64_t now_us);
 

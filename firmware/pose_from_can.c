@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Collects, checks and counts the pose messages of one viewer.
+// Collects, checks and counts the pose messages of one viewer, and hands on those of bus time.
 #include "firmware/pose_from_can.h"
 
 #include <string.h>
@@ -67,27 +67,48 @@ static bool is_sane(const pose_t *pose)
     return norm_squared >= one / 10000 * 9801 && norm_squared <= one / 10000 * 10201;
 }
 
-static void take_pose(can_poses_t *poses, const can_pose_t *pose, int64_t time_us, can_faults_t *faults)
+static void take_capture_time(can_poses_t *poses, const bus_master_t *time, uint64_t wrap_us)
+{
+    poses->captured = false;
+    poses->capture_bus_us = poses->captured_us = 0;
+    if (time == NULL || time->origin != BUS_MASTER_TRACKER || !bus_master_knows(time, poses->received_us))
+        return;
+    const int64_t received_bus_us = bus_time_from_local(&time->time, poses->received_us);
+    const int64_t capture_bus_us = bus_time_extend(received_bus_us, poses->newest.capture_time_us, wrap_us);
+    if (received_bus_us - capture_bus_us > POSE_FROM_CAN_OLDEST_US ||
+        capture_bus_us - received_bus_us > POSE_FROM_CAN_AHEAD_US)
+        return;
+    poses->captured = true;
+    poses->capture_bus_us = capture_bus_us;
+    poses->captured_us = bus_time_to_local(&time->time, capture_bus_us);
+}
+
+/* @return Was it taken? */
+static bool take_pose(can_poses_t *poses, const can_pose_t *pose, int64_t time_us, can_faults_t *faults)
 {
     if (pose->quality == CAN_POSE_LOST) {
         faults->tracking_lost++;
-    } else if (!is_sane(&pose->pose)) {
-        faults->bad_pose++;
-    } else {
-        poses->newest = *pose;
-        poses->received_us = time_us;
-        poses->any = true;
+        return false;
     }
+    if (!is_sane(&pose->pose)) {
+        faults->bad_pose++;
+        return false;
+    }
+    poses->newest = *pose;
+    poses->received_us = time_us;
+    poses->any = true;
+    return true;
 }
 
 /* @return Was it this viewer's FD pose, good or bad? */
-static bool take_fd(can_poses_t *poses, const hal_can_frame_t *frame, can_faults_t *faults)
+static bool take_fd(can_poses_t *poses, const bus_master_t *time, const hal_can_frame_t *frame, can_faults_t *faults)
 {
     can_pose_t pose;
     const can_check_t check = can_pose_fd_decode(&pose, frame, poses->viewer);
     count_check(faults, check);
-    if (check == CAN_CHECK_OK && carries_on(&poses->fd, pose.counter, CAN_E2E_P05_COUNTERS, frame->time_us, faults))
-        take_pose(poses, &pose, frame->time_us, faults);
+    if (check == CAN_CHECK_OK && carries_on(&poses->fd, pose.counter, CAN_E2E_P05_COUNTERS, frame->time_us, faults) &&
+        take_pose(poses, &pose, frame->time_us, faults))
+        take_capture_time(poses, time, CAN_POSE_FD_WRAP_US);
     return check != CAN_CHECK_OTHER;
 }
 
@@ -98,18 +119,18 @@ static void give_up_set(can_poses_t *poses, can_faults_t *faults)
     poses->collecting = false;
 }
 
-static void complete_set(can_poses_t *poses, int64_t time_us, can_faults_t *faults)
+static void complete_set(can_poses_t *poses, const bus_master_t *time, int64_t time_us, can_faults_t *faults)
 {
     can_pose_t pose;
     const can_check_t check = can_pose_set_decode(&pose, poses->part, poses->viewer);
     poses->collecting = false;
     count_check(faults, check);
-    if (check == CAN_CHECK_OK)
-        take_pose(poses, &pose, time_us, faults);
+    if (check == CAN_CHECK_OK && take_pose(poses, &pose, time_us, faults))
+        take_capture_time(poses, time, CAN_POSE_SET_WRAP_US);
 }
 
 /* @return Was it a part of this viewer's sets, good or bad? */
-static bool take_part(can_poses_t *poses, const hal_can_frame_t *frame, can_faults_t *faults)
+static bool take_part(can_poses_t *poses, const bus_master_t *time, const hal_can_frame_t *frame, can_faults_t *faults)
 {
     int part = 0;
     uint8_t counter = 0;
@@ -136,7 +157,7 @@ static bool take_part(can_poses_t *poses, const hal_can_frame_t *frame, can_faul
     poses->part[part] = *frame;
     poses->part_here[part] = true;
     if (poses->part_here[0] && poses->part_here[1] && poses->part_here[2])
-        complete_set(poses, frame->time_us, faults);
+        complete_set(poses, time, frame->time_us, faults);
     return true;
 }
 
@@ -151,10 +172,10 @@ static void leave_bus_off(hal_can_t *can, can_faults_t *faults)
 
 bool pose_from_frame(can_poses_t *poses, const hal_can_frame_t *frame, can_faults_t *faults)
 {
-    return take_fd(poses, frame, faults) || take_part(poses, frame, faults);
+    return take_fd(poses, NULL, frame, faults) || take_part(poses, NULL, frame, faults);
 }
 
-void pose_from_can(can_poses_t *poses, hal_can_t *can, can_faults_t *faults)
+void pose_from_can(can_poses_t *poses, bus_master_t *time, hal_can_t *can, can_faults_t *faults)
 {
     leave_bus_off(can, faults);
     for (int i = 0; i < POSE_FROM_CAN_FRAMES; i++) {
@@ -166,7 +187,10 @@ void pose_from_can(can_poses_t *poses, hal_can_t *can, can_faults_t *faults)
             faults->io++;
             return;
         }
-        (void)pose_from_frame(poses, &frame, faults);
+        const can_check_t check = time == NULL ? CAN_CHECK_OTHER : bus_master_hear(time, &frame);
+        count_check(faults, check);
+        if (check == CAN_CHECK_OTHER && !take_fd(poses, time, &frame, faults))
+            (void)take_part(poses, time, &frame, faults);
     }
     faults->overrun++;
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// CAN frames -> the newest checked pose of one viewer.
+// CAN frames -> the newest checked pose of one viewer, and bus time.
 #ifndef FIRMWARE_POSE_FROM_CAN_H
 #define FIRMWARE_POSE_FROM_CAN_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "firmware/bus_master.h"
 #include "firmware/can_protocol.h"
 #include "hal/hal_can.h"
 
@@ -16,24 +17,29 @@ enum {
     /** After this long without a frame the sender's counter is taken as it comes. */
     POSE_FROM_CAN_SILENCE_US = 200000,
     /** Frames taken per call at most. */
-    POSE_FROM_CAN_FRAMES = 256
+    POSE_FROM_CAN_FRAMES = 256,
+    /** A capture time is believed when it is at most so much before the pose was received, or after it: the wrapped one
+     *  of a set says no more, and more than that would be of no use. */
+    POSE_FROM_CAN_OLDEST_US = 1000000,
+    POSE_FROM_CAN_AHEAD_US = 5000
 };
 
 /** What went wrong on the bus, counted since start. Every counter wraps at 2^32. */
 typedef struct {
-    uint32_t length;          /**< pose frames of a wrong length, or classic where FD is due, or the reverse */
-    uint32_t crc;             /**< pose frames whose CRC is wrong */
-    uint32_t counter_invalid; /**< pose frames whose CRC is right but whose counter is 15 */
+    uint32_t length;          /**< pose and time frames of a wrong length, or classic where FD is due, or the reverse */
+    uint32_t crc;             /**< pose and time frames whose CRC is wrong */
+    uint32_t counter_invalid; /**< pose and time frames whose CRC is right but whose counter is 15 */
     uint32_t counter_lost;    /**< poses that never came, by their counters */
     uint32_t duplicate;       /**< pose frames that came again: dropped */
     uint32_t stale;           /**< pose frames older than the newest: dropped */
     uint32_t sender_restart;  /**< the counter jumped far back, or the sender had been silent */
     uint32_t incomplete_set;  /**< sets given up because a newer one began or their time was over */
-    uint32_t bad_pose;        /**< unknown quality, position beyond 1000 m, quaternion not within 1 % of unit length */
-    uint32_t tracking_lost;   /**< good frames in which the tracker says that it has lost the viewer */
-    uint32_t io;              /**< failures of the CAN driver */
-    uint32_t overrun;         /**< calls that took POSE_FROM_CAN_FRAMES: the controller may have dropped some */
-    uint32_t bus_off;         /**< calls that found the controller bus-off; each orders a restart */
+    uint32_t
+        bad_pose; /**< unknown quality or origin, position beyond 1000 m, quaternion not within 1 % of unit length */
+    uint32_t tracking_lost; /**< good frames in which the tracker says that it has lost the viewer */
+    uint32_t io;            /**< failures of the CAN driver */
+    uint32_t overrun;       /**< calls that took POSE_FROM_CAN_FRAMES: the controller may have dropped some */
+    uint32_t bus_off;       /**< calls that found the controller bus-off; each orders a restart */
 } can_faults_t;
 
 /** A sequence of counters of one kind of message. */
@@ -45,10 +51,13 @@ typedef struct {
 
 /** Newest pose and receiver. All zero bytes is a receiver for viewer 0 that has heard nothing. No pointers inside. */
 typedef struct {
-    uint8_t viewer;      /**< whose poses to take, 0 to CAN_VIEWERS - 1; set it before the first call */
-    bool any;            /**< a pose has come; newest and received_us mean something */
-    can_pose_t newest;   /**< checked; its quality is not CAN_POSE_LOST; its quaternion only nearly of unit length */
-    int64_t received_us; /**< when its last bit was seen, on hal_time's clock */
+    uint8_t viewer;         /**< whose poses to take, 0 to CAN_VIEWERS - 1; set it before the first call */
+    bool any;               /**< a pose has come; newest and received_us mean something */
+    can_pose_t newest;      /**< checked; its quality is not CAN_POSE_LOST; its quaternion only nearly of unit length */
+    int64_t received_us;    /**< when its last bit was seen, on hal_time's clock */
+    bool captured;          /**< its capture time is known: */
+    int64_t capture_bus_us; /**< in bus time, unwrapped, */
+    int64_t captured_us;    /**< and on hal_time's clock; else both are 0 */
 
     can_sequence_t fd, set;               /**< the receiver's own from here on */
     hal_can_frame_t part[CAN_POSE_PARTS]; /**< of the set being collected */
@@ -63,14 +72,17 @@ typedef struct {
  *
  * The pose of an FD frame counts at once; a classic set counts when its three frames are here, in any order, all with
  * one counter and within POSE_FROM_CAN_SET_US; a frame of a newer set ends the collecting of an older one. Anything
- * wrong is counted and changes nothing else. Frames that are not this viewer's poses are taken and ignored. A
- * controller found bus-off is told to restart.
+ * wrong is counted and changes nothing else. Frames that are neither this viewer's poses nor of bus time are taken and
+ * ignored. A controller found bus-off is told to restart.
+ *
+ * A pose's capture time is known when bus time is, began on a tracker's clock, and puts it not long before now.
  *
  * @param[in,out] poses   The receiver.
+ * @param[in,out] time    Hears Sync and FollowUp; NULL: they are ignored.
  * @param         can     An open controller.
  * @param[in,out] faults  Counted up.
  */
-void pose_from_can(can_poses_t *poses, hal_can_t *can, can_faults_t *faults);
+void pose_from_can(can_poses_t *poses, bus_master_t *time, hal_can_t *can, can_faults_t *faults);
 
 /**
  * Take one frame as pose_from_can() takes each: for tools that hear the bus in another way.

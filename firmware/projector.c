@@ -17,6 +17,7 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
     projector->wall = board->wall;
     projector->kernels = kernels;
     projector->poses = (can_poses_t){.viewer = board->viewer};
+    bus_master_init(&projector->time, (uint8_t)board->node, hal_time_now_us(devices->clock));
     projector->picture = (hal_camera_frame_t){.picture = {.format = PICTURE_XRGB8888}};
     projector->has_picture = false;
     projector->picture_us = hal_time_now_us(devices->clock);
@@ -194,8 +195,9 @@ void projector_step(projector_t *p)
 {
     const int64_t now_us = end_stage(p, STAGE_WAIT, p->shown_us);
     drive(p, HAL_GPIO_STROBE, true);
-    pose_from_can(&p->poses, p->board.can, &p->can_faults); /* bus -> newest checked pose */
-    take_newest_picture(p, now_us);                         /* camera -> newest picture, or the last good one */
+    pose_from_can(&p->poses, &p->time, p->board.can, &p->can_faults); /* bus -> newest checked pose, bus time */
+    bus_master_step(&p->time, p->board.can, now_us); /* bus time -> bus, when it is this board's turn */
+    take_newest_picture(p, now_us);                  /* camera -> newest picture, or the last good one */
     p->report.state = state_now(p, now_us);
     const int64_t posed_us = end_stage(p, STAGE_POSE, now_us);
     const int64_t deadline_us = hal_display_next_vblank_us(p->board.display);

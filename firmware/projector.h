@@ -55,6 +55,7 @@ struct projector {
     const warp_kernels_t *kernels;
 
     can_poses_t poses;
+    bus_master_t time;          /**< of the bus */
     hal_camera_frame_t picture; /**< the newest, lent by the camera; XRGB8888 without pixels before the first */
     bool has_picture;
     int64_t picture_us; /**< when it was taken; at first the start of the loop */
@@ -87,9 +88,9 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
 void projector_keep_method(projector_t *projector);
 
 /**
- * Everything that is done once per refresh: bus, camera, warp, display, telemetry, watchdog. Call it after each
- * vertical blank. Never blocks, never allocates; ends with a picture presented whatever has failed, unless it is the
- * display itself. When pictures are late or about to be, the next ones are made with a cheaper method (degrade.h).
+ * Everything that is done once per refresh: bus and its time, camera, warp, display, telemetry, watchdog. Call it after
+ * each vertical blank. Never blocks, never allocates; ends with a picture presented whatever has failed, unless it is
+ * the display itself. When pictures are late or about to be, the next ones are made with a cheaper method (degrade.h).
  *
  * States: waiting for the first pose (safe picture); running; holding the last pose after PROJECTOR_HOLD_AFTER_US
  * without a new one; safe picture after PROJECTOR_SAFE_AFTER_US; fault (safe picture) while the camera has been silent

@@ -12,6 +12,7 @@ void telemetry_init(telemetry_t *telemetry, int64_t now_us)
         .heartbeat_due_us = now_us,
         .status_due_us = now_us,
         .quality_due_us = now_us,
+        .time_due_us = now_us,
         .stage_due_us = now_us + STAGES * CAN_STAGE_PERIOD_MS * 1000,
     };
 }
@@ -28,7 +29,8 @@ static uint32_t fault_flags(projector_t *p, int64_t now_us)
 {
     telemetry_t *t = &p->telemetry;
     uint32_t flags = now_us - p->picture_us > PROJECTOR_CAMERA_LOST_US ? (uint32_t)CAN_FAULT_CAMERA : 0;
-    flags |= flag_if_new(&t->seen_bus, can_faults_total(&p->can_faults) + p->faults.can_send, CAN_FAULT_BUS);
+    flags |= flag_if_new(&t->seen_bus, can_faults_total(&p->can_faults) + p->faults.can_send + p->time.unsent,
+                         CAN_FAULT_BUS);
     flags |= flag_if_new(&t->seen_bus_off, p->can_faults.bus_off, CAN_FAULT_BUS_OFF);
     flags |= flag_if_new(&t->seen_display, p->faults.display, CAN_FAULT_DISPLAY);
     flags |= flag_if_new(&t->seen_gpio, p->faults.gpio, CAN_FAULT_GPIO);
@@ -126,6 +128,32 @@ static void send_quality(projector_t *p)
     send(p, can_quality_encode(&frame, &quality), &frame);
 }
 
+/* |rate| < 2^22: the product fits. */
+static int32_t drift_ppb(const bus_time_t *time)
+{
+    return (int32_t)(-time->rate_q32 * 1000000000 / (INT64_C(1) << 32));
+}
+
+static void send_time(projector_t *p, int64_t now_us)
+{
+    telemetry_t *t = &p->telemetry;
+    const bus_master_t *master = &p->time;
+    const can_time_t time = {
+        .node = (uint8_t)p->node,
+        .counter = t->time_counter,
+        .state = bus_master_state(master, now_us),
+        .master = master->master,
+        .drift_ppb = drift_ppb(&master->time),
+        .error_us = bus_master_error_us(master, now_us),
+        .changes = master->changes,
+        .relocks = master->time.relocks,
+        .lost = master->lost,
+    };
+    t->time_counter = (uint8_t)((t->time_counter + 1) % CAN_E2E_P01_COUNTERS);
+    hal_can_frame_t frame;
+    send(p, can_time_encode(&frame, &time), &frame);
+}
+
 void telemetry_send(projector_t *projector, int64_t now_us)
 {
     telemetry_t *t = &projector->telemetry;
@@ -142,6 +170,10 @@ void telemetry_send(projector_t *projector, int64_t now_us)
     if (now_us >= t->quality_due_us) {
         t->quality_due_us = now_us + CAN_QUALITY_PERIOD_MS * 1000;
         send_quality(projector);
+    }
+    if (now_us >= t->time_due_us) {
+        t->time_due_us = now_us + CAN_TIME_PERIOD_MS * 1000;
+        send_time(projector, now_us);
     }
     if (now_us >= t->heartbeat_due_us) {
         t->heartbeat_due_us = now_us + CAN_HEARTBEAT_PERIOD_MS * 1000;

@@ -12,8 +12,8 @@ typedef struct projector projector_t;
 /** When what was last sent, and the fault counts at the last heartbeat. */
 typedef struct {
     int64_t start_us;
-    int64_t heartbeat_due_us, status_due_us, stage_due_us, quality_due_us;
-    uint8_t heartbeat_counter, status_counter, stage_counter, quality_counter;
+    int64_t heartbeat_due_us, status_due_us, stage_due_us, quality_due_us, time_due_us;
+    uint8_t heartbeat_counter, status_counter, stage_counter, quality_counter, time_counter;
     stage_t stage;           /**< the next to be sent */
     stage_figures_t figures; /**< of the second that is being sent */
     uint32_t seen_bus, seen_bus_off, seen_display, seen_gpio, seen_watchdog, seen_deadline;
@@ -22,7 +22,7 @@ typedef struct {
 /** Start to count from now on; the first messages are due at once, those of the stages after the first second. */
 void telemetry_init(telemetry_t *telemetry, int64_t now_us);
 
-/** Send what is due: status, heartbeat, stages and quality, each after its CAN_..._PERIOD_MS. Never blocks. */
+/** Send what is due: status, heartbeat, stages, quality and time, each after its CAN_..._PERIOD_MS. Never blocks. */
 void telemetry_send(projector_t *projector, int64_t now_us);
 
 #endif

@@ -76,7 +76,7 @@ static inline bench_t new_bench(void)
 
 static inline void receive(bench_t *bench)
 {
-    pose_from_can(&bench->poses, &bench->can, &bench->faults);
+    pose_from_can(&bench->poses, NULL, &bench->can, &bench->faults);
     assert_int_equal(bench->can.next, bench->can.count);
 }
 

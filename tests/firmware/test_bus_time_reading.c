@@ -20,7 +20,7 @@ static void test_an_own_clock_runs_on(void **state)
     assert_int_equal(bus_time_to_local(&time, 12345), 12345);
     assert_int_equal(bus_time_error_us(&time, 0), UINT32_MAX);
     bus_time_begin(&time, 1000, 500);
-    assert_true(time.known && !time.locked && time.relocks == 0);
+    assert_true(time.known && time.locked && time.relocks == 0);
     for (int64_t now_us = 1000; now_us < INT64_C(1) << 46; now_us += INT64_C(3600000000) * 24) {
         bus_time_keep(&time, now_us);
         assert_int_equal(bus_time_from_local(&time, now_us), now_us - 500);
@@ -73,7 +73,6 @@ static void test_any_stamps(void **state)
         for (int i = 0; i < 60 && local_us < limit_us; i++) {
             local_us += (int64_t)(rng_next(&rng) % (uint64_t)(limit_us / (1 << rng_next(&rng) % 10)));
             bus_time_pair(&time, local_us, (int64_t)(rng_next(&rng) >> (16 + rng_next(&rng) % 40)));
-            bus_time_keep(&time, local_us);
             (void)bus_time_to_local(&time, bus_time_from_local(&time, local_us));
             assert_true(bus_time_error_us(&time, local_us) > 0);
             assert_true(llabs(time.rate_q32) <= INT64_C(500) * 4295);

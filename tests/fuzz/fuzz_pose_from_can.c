@@ -48,6 +48,7 @@ hal_status_t hal_can_restart(hal_can_t *can)
 
 typedef struct {
     can_poses_t poses;
+    bus_master_t time;
     can_faults_t faults;
     int64_t time_us;
     can_pose_t sent; /* counts on where a sound sender would */
@@ -78,7 +79,7 @@ static void receive(bench_t *bench, hal_can_t *can)
 {
     const uint8_t viewer = bench->poses.viewer;
     const can_faults_t before = bench->faults;
-    pose_from_can(&bench->poses, can, &bench->faults);
+    pose_from_can(&bench->poses, &bench->time, can, &bench->faults);
     fuzz_check(bench->faults.overrun >= before.overrun && bench->faults.crc >= before.crc, "faults are counted up");
     fuzz_check(can->broken || can->endless || can->next == can->count, "everything received is taken");
     check_newest(bench, viewer);
@@ -153,6 +154,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     bench_t bench;
     memset(&bench, 0, sizeof bench);
     bench.poses.viewer = input_byte(&input) % CAN_VIEWERS;
+    bus_master_init(&bench.time, 1, bench.time_us);
     bench.time_us = 1000000;
     while (input.left > 0)
         one_turn(&bench, &input);
