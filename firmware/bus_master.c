@@ -217,5 +217,5 @@ uint32_t bus_master_error_us(const bus_master_t *m, int64_t now_us)
 
 bool bus_master_knows(const bus_master_t *m, int64_t now_us)
 {
-    return bus_master_state(m, now_us) != CAN_TIME_NONE && bus_master_error_us(m, now_us) <= BUS_TIME_STEP_US;
+    return m->time.known && bus_master_error_us(m, now_us) <= BUS_TIME_STEP_US;
 }

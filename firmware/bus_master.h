@@ -90,8 +90,8 @@ void bus_master_step(bus_master_t *master, hal_can_t *can, int64_t now_us);
 
 can_time_state_t bus_master_state(const bus_master_t *master, int64_t now_us);
 
-/** @return Whether bus time is right enough to compare times of other nodes with: own or locked, or held and within
- *          BUS_TIME_STEP_US. */
+/** @return Whether bus time is right within BUS_TIME_STEP_US, by its own estimate: enough to compare times of other
+ *          nodes with, if not locked. */
 bool bus_master_knows(const bus_master_t *master, int64_t now_us);
 
 /** @return As bus_time_error_us(); 0 for the master itself. */

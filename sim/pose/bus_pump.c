@@ -89,10 +89,17 @@ static bool put_pending(work_t *work, const hal_can_frame_t *frame, int64_t due_
     return true;
 }
 
+/* What nodes on the bus send themselves: reports, and bus time, which would be that of another day. */
+static bool is_left_out(const hal_can_frame_t *frame)
+{
+    const bool is_time = frame->id >= CAN_ID_SYNC && frame->id <= CAN_ID_FOLLOW_UP + CAN_MAX_NODE;
+    return !frame->extended && (frame->id >= CAN_ID_STATUS || is_time);
+}
+
 static bool take(work_t *work, hal_can_frame_t *frame, int64_t due_us, char error[BUS_PUMP_MESSAGE_LENGTH])
 {
     const bus_pump_t *pump = work->pump;
-    if ((frame->fd && !pump->fd) || (!frame->extended && frame->id >= CAN_ID_STATUS && !pump->reports))
+    if ((frame->fd && !pump->fd) || (is_left_out(frame) && !pump->reports))
         return true;
     work->counts->taken++;
     bool late = false;

@@ -124,7 +124,19 @@ static can_check_t take_report(bus_watch_t *watch, const hal_can_frame_t *frame)
         watch->board[quality.node].has_quality = true;
     }
     can_stage_t stage;
-    return check == CAN_CHECK_OTHER ? can_stage_decode(&stage, frame) : check;
+    can_time_t time;
+    if (check == CAN_CHECK_OTHER)
+        check = can_stage_decode(&stage, frame);
+    return check == CAN_CHECK_OTHER ? can_time_decode(&time, frame) : check;
+}
+
+/* @return What the decoders of bus time found. */
+static can_check_t take_time(const hal_can_frame_t *frame)
+{
+    can_sync_t sync;
+    can_follow_up_t follow_up;
+    const can_check_t check = can_sync_decode(&sync, frame);
+    return check == CAN_CHECK_OTHER ? can_follow_up_decode(&follow_up, frame) : check;
 }
 
 void bus_watch_take(bus_watch_t *watch, const hal_can_frame_t *frame)
@@ -137,7 +149,9 @@ void bus_watch_take(bus_watch_t *watch, const hal_can_frame_t *frame)
     for (int v = 0; v < CAN_VIEWERS; v++)
         if (take_pose(&watch->viewer[v], frame))
             return;
-    const can_check_t check = take_report(watch, frame);
+    can_check_t check = take_report(watch, frame);
+    if (check == CAN_CHECK_OTHER)
+        check = take_time(frame);
     watch->unknown += check == CAN_CHECK_OTHER;
     watch->damaged += check != CAN_CHECK_OTHER && check != CAN_CHECK_OK;
 }

@@ -13,11 +13,11 @@
 #include "sim/pose/pose_send.h"
 #include "sim/program.h"
 
-enum { LONG_LIST_US = 2000000 };
+enum { LONG_LIST_US = 2000000, NO_SYNC = 256 };
 
 typedef struct {
     const char *bus, *csv;
-    bool fd;
+    bool fd, no_sync;
 } options_t;
 
 static error_t parse(int key, char *argument, struct argp_state *state)
@@ -29,6 +29,9 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         return 0;
     case 'f':
         options->fd = true;
+        return 0;
+    case NO_SYNC:
+        options->no_sync = true;
         return 0;
     case ARGP_KEY_ARG:
         if (options->csv != NULL)
@@ -68,7 +71,7 @@ static int send_list(const options_t *options, const pose_list_t *list)
     /* only now: before the link is open, a signal may end the program at once */
     const volatile sig_atomic_t *stop = command_catch_stop();
     const bool show_progress = isatty(STDERR_FILENO) && is_long(list);
-    const pose_send_t send = {list, options->fd, show_progress, stop};
+    const pose_send_t send = {list, options->fd, show_progress, stop, !options->no_sync};
     size_t sent = 0;
     const bool ok = pose_send_list(&link, &send, &sent, error);
     pose_link_close(&link);
@@ -90,6 +93,7 @@ int command_send(int argc, char **argv)
         {"bus", 'b', "BUS", 0, command_bus_help, 0},
         {"fd", 'f', NULL, 0,
          "One CAN FD frame of 32 bytes per pose, instead of three classic frames; not with HOST:PORT", 0},
+        {"no-sync", NO_SYNC, NULL, 0, "Leave it to another to give the time of the bus (Sync and FollowUp)", 0},
         {0},
     };
     static const struct argp argp = {

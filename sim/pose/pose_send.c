@@ -7,6 +7,7 @@
 
 #include "firmware/can_protocol.h"
 #include "sim/devices/sim_clock.h"
+#include "sim/pose/sync_send.h"
 
 enum { PROGRESS_EVERY_US = 250000, LONGEST_SLEEP_US = 100000, NS_PER_US = 1000, US_PER_S = 1000000 };
 
@@ -20,6 +21,19 @@ static void sleep_until_us(int64_t time_us, const volatile sig_atomic_t *stop)
                                       .tv_nsec = (long)(end_us % US_PER_S) * NS_PER_US};
         (void)clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &when, NULL);
     }
+}
+
+/* Sleep until then, and give bus time meanwhile. @return false when the link failed. */
+static bool wait_until_us(int64_t time_us, pose_link_t *link, const pose_send_t *send, sync_send_t *sync,
+                          char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    while (send->sync && !*send->stop && sync->due_us <= time_us) {
+        sleep_until_us(sync->due_us, send->stop);
+        if (!*send->stop && !sync_send(sync, link, error))
+            return false;
+    }
+    sleep_until_us(time_us, send->stop);
+    return true;
 }
 
 /* @return Frames made: 1, 3, or 0 when the pose does not fit. */
@@ -61,9 +75,11 @@ bool pose_send_list(pose_link_t *link, const pose_send_t *send, size_t *sent, ch
     const pose_list_t *list = send->list;
     const int64_t start_us = sim_clock_monotonic_us();
     int64_t shown_us = start_us;
+    sync_send_t sync = {.due_us = start_us};
     for (*sent = 0; *sent < list->count; ++*sent) {
         const pose_list_entry_t *entry = &list->entry[*sent];
-        sleep_until_us(start_us + entry->time_us - list->entry[0].time_us, send->stop);
+        if (!wait_until_us(start_us + entry->time_us - list->entry[0].time_us, link, send, &sync, error))
+            return false;
         if (*send->stop)
             break;
         const int64_t time_us = sim_clock_monotonic_us();

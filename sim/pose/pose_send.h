@@ -16,6 +16,7 @@ typedef struct {
     bool fd;                           /**< one CAN FD frame a pose, else a set of three classic frames */
     bool show_progress;                /**< write a line about it to stderr now and then */
     const volatile sig_atomic_t *stop; /**< when it becomes non-zero, no further pose is sent; looked at every 100 ms */
+    bool sync;                         /**< give bus time, so that boards can use the capture times */
 } pose_send_t;
 
 /**

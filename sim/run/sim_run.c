@@ -120,7 +120,7 @@ static bool open_world(run_t *run)
         run->server = socketcand_server_open(run->options->bus_port, bus, run->error);
         return run->server != NULL;
     }
-    const pose_sender_config_t sender = {bus, &run->poses, run->room.fd, 0};
+    const pose_sender_config_t sender = {.bus = bus, .list = &run->poses, .fd = run->room.fd, .sync = true};
     return pose_sender_open(&run->sender, &sender) || file_error(run->error, "bus", "has no room for a tracker");
 }
 

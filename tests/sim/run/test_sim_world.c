@@ -53,7 +53,7 @@ static uint64_t play(bool fd)
     pose_sender_t sender;
     room_bench_open(&bench, fd);
     sim_world_t *world = make_world(&bench, &refresh);
-    const pose_sender_config_t config = {sim_world_bus(world), &list, fd, 0};
+    const pose_sender_config_t config = {.bus = sim_world_bus(world), .list = &list, .fd = fd, .sync = true};
     assert_true(pose_sender_open(&sender, &config));
     for (int n = 0; n < POSES; n++) {
         pose_sender_advance(&sender, sim_rate_time_us(&refresh, n));
@@ -65,6 +65,12 @@ static uint64_t play(bool fd)
             assert_int_equal(report->pose.counter, n % (fd ? 256 : 15));
             hash = hash_of(hash, sim_world_shown(world, board, sim_rate_time_us(&refresh, n + 1)));
         }
+    }
+    for (int board = 0; board < ROOM_BENCH_BOARDS; board++) { /* who have found the tracker's time by now */
+        const can_poses_t *poses = &sim_world_projector(world, board)->poses;
+        const int64_t sent_us = entries[POSES - 1].time_us - entries[0].time_us;
+        assert_true(poses->captured);
+        assert_in_range(poses->captured_us, sent_us - 52, sent_us + 52);
     }
     assert_int_equal(sender.sent, POSES);
     assert_int_equal(sender.unsent, 0);
