@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors and warnings about a room file, each one line: "FILE:LINE: KEY: what was found, what was expected".
+// Errors and warnings about a room file, or another YAML file, each one line: "FILE:LINE: KEY: what was found, what was
+// expected".
 #ifndef FIRMWARE_ROOM_ROOM_REPORT_H
 #define FIRMWARE_ROOM_ROOM_REPORT_H
 
@@ -8,9 +9,11 @@
 
 #include "firmware/room.h"
 
-/** Where the messages of one room_load() go. */
+/** What a file is, and where the messages about it go. */
 typedef struct {
     const char *path;
+    const char *what;      /**< it should be, such as "a room file" */
+    const char *keys;      /**< it must have, such as "camera, boards" */
     room_warning_fn *warn; /**< may be NULL */
     void *context;         /**< for warn */
     char *error;           /**< ROOM_MESSAGE_LENGTH bytes */

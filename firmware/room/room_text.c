@@ -39,7 +39,8 @@ static bool read_bytes(room_text_t *text, const room_report_t *report)
 {
     FILE *file = fopen(report->path, "rb");
     if (file == NULL)
-        return room_refuse(report, 1, "file", "cannot be opened (%s), expected a room file in YAML", strerror(errno));
+        return room_refuse(report, 1, "file", "cannot be opened (%s), expected %s in YAML", strerror(errno),
+                           report->what);
     unsigned char *bytes = malloc(ROOM_MAX_BYTES + 1);
     errno = bytes == NULL ? ENOMEM : 0;
     const size_t length = bytes == NULL ? 0 : fread(bytes, 1, ROOM_MAX_BYTES + 1, file);
@@ -52,8 +53,10 @@ static bool read_bytes(room_text_t *text, const room_report_t *report)
     }
     free(bytes);
     if (failed)
-        return room_refuse(report, 1, "file", "cannot be read (%s), expected a room file in YAML", strerror(reason));
-    return room_refuse(report, 1, "file", "more than %d bytes, expected a room file of at most that", ROOM_MAX_BYTES);
+        return room_refuse(report, 1, "file", "cannot be read (%s), expected %s in YAML", strerror(reason),
+                           report->what);
+    return room_refuse(report, 1, "file", "more than %d bytes, expected %s of at most that", ROOM_MAX_BYTES,
+                       report->what);
 }
 
 /* Where the walk through the text is. */
@@ -78,7 +81,7 @@ static bool check_event(const yaml_event_t *event, position_t *at, const room_re
         return room_refuse(report, line, "syntax", "found the alias '*%.40s', expected the value itself",
                            (const char *)event->data.alias.anchor);
     if (type == YAML_STREAM_END_EVENT && at->documents == 0)
-        return room_refuse(report, 1, "file", "empty, expected the keys camera, boards");
+        return room_refuse(report, 1, "file", "empty, expected the keys %s", report->keys);
     return true;
 }
 
