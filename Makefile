@@ -19,7 +19,7 @@ CFLAGS := -std=c11 $(OPT) -g -Wall -Wextra -Werror -Wpedantic -Wshadow -Wconvers
           -Wpointer-arith -Wvla -Wformat=2 -Wundef -Wswitch-enum -Wdouble-promotion -Wnull-dereference \
           -fno-common -fstrict-aliasing
 CPPFLAGS := -I. -MMD -MP -D_GNU_SOURCE
-LDLIBS   := -lcyaml -lyaml -lpng -lz -lm -lpthread
+LDLIBS   := -Wl,--as-needed -lcyaml -lyaml -lpng -lz -ljansson -lcbor -llo -lm -lpthread
 
 PROGRAMS := wallwarp wallwarp-sim wallwarp-eval wallwarp-pose
 MAINS    := firmware/main.c sim/wallwarp_sim.c sim/wallwarp_eval.c sim/wallwarp_pose.c
@@ -249,7 +249,7 @@ FUZZ_C  := $(wildcard tests/fuzz/fuzz_*.c)
 FUZZERS := $(FUZZ_C:%.c=$(BUILD)/%)
 SECONDS := 20
 $(BUILD)/tests/fuzz/%: $(BUILD)/obj/tests/fuzz/%.c.o $(call objects,$(filter-out $(FUZZ_C),$(wildcard tests/fuzz/*.c))) \
-    $(LIBS)
+    $(BUILD)/libsupport.a $(LIBS)
 	$(call link)
 
 .PHONY: fuzz run-fuzz

@@ -120,7 +120,7 @@ name='root, nothing installed'
 machine 0 none
 run demo
 exits 0
-said 'setup: installing: gcc libc6-dev binutils make libsimde-dev libcyaml-dev libyaml-dev libpng-dev zlib1g-dev libmbedtls-dev gnuplot-nox'
+said 'setup: installing: gcc libc6-dev binutils make libsimde-dev libcyaml-dev libyaml-dev libjansson-dev libcbor-dev liblo-dev libpng-dev zlib1g-dev libmbedtls-dev gnuplot-nox'
 did 'apt-get as no root noninteractive: update -qq'
 did 'noninteractive: install -y -qq --no-install-recommends -o DPkg::Lock::Timeout=300 gcc libc6-dev binutils make'
 ! grep -q noise "$folder/said"
