@@ -11,7 +11,7 @@ static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
 } commands[] = {
-    {"send", command_send},       {"record", command_record}, {"replay", command_replay},
+    {"send", command_send},       {"bridge", command_bridge}, {"record", command_record}, {"replay", command_replay},
     {"monitor", command_monitor}, {"check", command_check},   {"fault", command_fault},
 };
 
@@ -51,7 +51,8 @@ int main(int argc, char **argv)
         .args_doc = "COMMAND ...",
         .doc = "Send poses onto a CAN bus, and look at one.\v"
                "Commands:\n"
-               "  send       send a pose list in real time\n"
+               "  send       send a pose list or a made-up motion in real time\n"
+               "  bridge     send what a tracker measures\n"
                "  record     write what is on a bus into a log\n"
                "  replay     send a log again\n"
                "  monitor    show poses, rates, losses, boards and load, live\n"

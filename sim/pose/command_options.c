@@ -5,6 +5,7 @@
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "sim/pose/commands.h"
 #include "sim/pose/pose_link.h"
@@ -17,12 +18,29 @@ const char *command_bus(struct argp_state *state, const char *text)
     return text;
 }
 
+void command_check_fd(struct argp_state *state, const char *bus, bool fd)
+{
+    if (bus == NULL)
+        argp_error(state, "--bus is missing");
+    if (fd && strchr(bus, ':') != NULL)
+        argp_error(state, "--fd: a simulator's port carries classic frames only");
+}
+
 double command_number(struct argp_state *state, const char *option, const char *text, double least, double most)
 {
     char *end;
     const double value = strtod(text, &end);
     if (end == text || *end != '\0' || !(value >= least && value <= most))
         argp_error(state, "%s: found \"%s\", expected a number from %g to %g", option, text, least, most);
+    return value;
+}
+
+long command_whole(struct argp_state *state, const char *option, const char *text, long least, long most)
+{
+    char *end;
+    const long value = strtol(text, &end, 10);
+    if (end == text || *end != '\0' || value < least || value > most)
+        argp_error(state, "%s: found \"%s\", expected a whole number from %ld to %ld", option, text, least, most);
     return value;
 }
 

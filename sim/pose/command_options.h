@@ -4,6 +4,7 @@
 #define SIM_POSE_COMMAND_OPTIONS_H
 
 #include <argp.h>
+#include <stdbool.h>
 #include <stdint.h>
 
 static const char command_bus_help[] =
@@ -12,8 +13,14 @@ static const char command_bus_help[] =
 /** @return The text, when it can name a bus. */
 const char *command_bus(struct argp_state *state, const char *text);
 
+/** Check that a bus is given, and that it carries FD where that is wanted. */
+void command_check_fd(struct argp_state *state, const char *bus, bool fd);
+
 /** @return A decimal number from least to most. @param option  For the message: "--speed". */
 double command_number(struct argp_state *state, const char *option, const char *text, double least, double most);
+
+/** @return A whole number from least to most. */
+long command_whole(struct argp_state *state, const char *option, const char *text, long least, long most);
 
 /** @return Seconds as us: 0.001 to 10^6 s. */
 int64_t command_seconds_us(struct argp_state *state, const char *option, const char *text);

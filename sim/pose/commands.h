@@ -13,6 +13,7 @@
  * @return The program's exit status.
  */
 int command_send(int argc, char **argv);
+int command_bridge(int argc, char **argv);
 int command_record(int argc, char **argv);
 int command_replay(int argc, char **argv);
 int command_monitor(int argc, char **argv);

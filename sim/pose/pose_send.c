@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <time.h>
 
-#include "firmware/can_protocol.h"
 #include "sim/devices/sim_clock.h"
+#include "sim/pose/pose_frames.h"
 #include "sim/pose/sync_send.h"
 
 enum { PROGRESS_EVERY_US = 250000, LONGEST_SLEEP_US = 100000, NS_PER_US = 1000, US_PER_S = 1000000 };
@@ -36,24 +36,23 @@ static bool wait_until_us(int64_t time_us, pose_link_t *link, const pose_send_t 
     return true;
 }
 
-/* @return Frames made: 1, 3, or 0 when the pose does not fit. */
-static int encode(hal_can_frame_t frame[CAN_POSE_PARTS], const pose_t *pose, bool fd, int64_t time_us, uint64_t number)
+static int encode(hal_can_frame_t frame[CAN_POSE_PARTS], const pose_t *pose, const pose_send_t *send, int64_t time_us,
+                  uint64_t number)
 {
-    const uint64_t counters = fd ? CAN_E2E_P05_COUNTERS : CAN_E2E_P01_COUNTERS;
     const can_pose_t message = {.pose = *pose,
                                 .capture_time_us = (uint64_t)time_us,
                                 .quality = CAN_POSE_TRACKED,
-                                .counter = (uint8_t)(number % counters)};
-    if (fd)
-        return can_pose_fd_encode(frame, &message) ? 1 : 0;
-    return can_pose_set_encode(frame, &message) ? CAN_POSE_PARTS : 0;
+                                .viewer = send->viewer,
+                                .tracker = send->tracker};
+    return pose_frames(frame, &message, send->fd, number);
 }
 
-bool pose_send_check(const pose_list_t *list, bool fd, char error[POSE_LINK_MESSAGE_LENGTH])
+bool pose_send_check(const pose_send_t *send, char error[POSE_LINK_MESSAGE_LENGTH])
 {
+    const pose_list_t *list = send->list;
     hal_can_frame_t frame[CAN_POSE_PARTS];
     for (size_t i = 0; i < list->count; i++) {
-        if (encode(frame, &list->entry[i].pose, fd, 0, 0) > 0)
+        if (encode(frame, &list->entry[i].pose, send, 0, 0) > 0)
             continue;
         snprintf(error, POSE_LINK_MESSAGE_LENGTH,
                  "pose %zu: farther than 83.886 m from the origin, which three classic frames cannot say; use --fd",
@@ -84,7 +83,7 @@ bool pose_send_list(pose_link_t *link, const pose_send_t *send, size_t *sent, ch
             break;
         const int64_t time_us = sim_clock_monotonic_us();
         hal_can_frame_t frame[CAN_POSE_PARTS];
-        const int frames = encode(frame, &entry->pose, send->fd, time_us, (uint64_t)start_us + *sent);
+        const int frames = encode(frame, &entry->pose, send, time_us, (uint64_t)start_us + *sent);
         if (!pose_link_send(link, frame, frames, error))
             return false;
         if (send->show_progress && time_us - shown_us >= PROGRESS_EVERY_US) {

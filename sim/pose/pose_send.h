@@ -6,14 +6,17 @@
 #include <signal.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "sim/pose/pose_link.h"
 #include "sim/pose/pose_list.h"
 
 /** What is sent, and how. */
 typedef struct {
-    const pose_list_t *list;           /**< passed by pose_send_check() with the same fd */
+    const pose_list_t *list;           /**< passed by pose_send_check() */
     bool fd;                           /**< one CAN FD frame a pose, else a set of three classic frames */
+    uint8_t viewer;                    /**< 0 to CAN_VIEWERS - 1 */
+    uint8_t tracker;                   /**< 0 to 15; only the FD frame carries it */
     bool show_progress;                /**< write a line about it to stderr now and then */
     const volatile sig_atomic_t *stop; /**< when it becomes non-zero, no further pose is sent; looked at every 100 ms */
     bool sync;                         /**< give bus time, so that boards can use the capture times */
@@ -24,7 +27,7 @@ typedef struct {
  *
  * @param[out] error  On failure: which one does not, counted from 1, and what to do.
  */
-bool pose_send_check(const pose_list_t *list, bool fd, char error[POSE_LINK_MESSAGE_LENGTH]);
+bool pose_send_check(const pose_send_t *send, char error[POSE_LINK_MESSAGE_LENGTH]);
 
 /**
  * Send the list once, in real time: the first pose at once, each other one as long after it as its time says. The

@@ -67,6 +67,47 @@ seed() {
             }
         done
         ;;
+    fuzz_transform)
+        cp sim/trackers/examples/*.yaml "$2"
+        sed 's/^    body: 1/&\n    turn_deg: [1, -2.5, 90]/; $a unit: in\nlatency_ms: 5\ntracker: 3' \
+            sim/trackers/examples/freed.yaml >"$2/all_keys.yaml"
+        ;;
+    fuzz_trackers)
+        # A byte for the protocol, and 200 as the highest bit where a checksum is to be made; then the packet's length.
+        zeros() { head -c "$1" /dev/zero; }
+        body='[1 0 0 0 1 0 0 0 1]'
+        sample='{"protocol":{"name":"OpenTrackIO","version":[1,0,1]},"sourceNumber":1,"timing":{"sampleTimestamp":'
+        sample+='{"seconds":5,"nanoseconds":6}},"transforms":[{"translation":{"x":1,"y":2.5,"z":-3},"rotation":'
+        sample+='{"pan":90,"tilt":30,"roll":0},"scale":{"x":1,"y":1,"z":1}}]}'
+        { printf '\200\35\0\321\1\55\0\0\17\0\0\370\200\0\0\372\0\376\14\0\1'; zeros 11; } >"$2/freed"
+        printf '\1\0\1fr 1\r\nts 5.5\r\n6d 1 [1 1.0][1 2 3 0 0 0]%s\r\n' "$body" >"$2/dtrack"
+        printf '\1\0\1fr 1\n6di 2 [0 1 2.5][1 2 3]%s [1 0 0][0 0 0][0 0 0 0 0 0 0 0 0]\n' "$body" >"$2/dtrack_6di"
+        {
+            printf '\2\104\0\125\147\100\200\0\0\14\0'
+            zeros 8
+            printf '\2\0\1\1\1\0\54\200\1\0\50\200'
+            printf '\0\0\14\0\0\0\200\77\0\0\0\100\0\0\100\300\2\0\14\0'
+            zeros 12
+            printf '\3\0\4\0\0\0\200\77'
+        } >"$2/psn"
+        printf '\203\377\377OTrk\0\1\0\1\0\0\0\0\200\0\0\0%s' "$sample" >"$2/json"
+        printf '\203\74\0OTrk\0\1\0\1\0\0\0\0\0\0\0\0%s' "${sample:0:44}" >"$2/segments"
+        printf 'OTrk\0\1\0\2\0\0\0\54\200\0\0\0%s' "${sample:44}" >>"$2/segments"
+        {
+            printf '\203\377\377OTrk\0\2\0\1\0\0\0\0\200\0\0\0'
+            printf '\243\150protocol\242\144name\153OpenTrackIO'
+            printf '\147version\203\1\0\1\154sourceNumber\1\152transforms\237\277\153translation\243\141x\371\76\0'
+            printf '\141y\41\141z\0\150rotation\243\143pan\30\132\144tilt\0\144roll\372\0\0\0\0\377\377'
+        } >"$2/cbor"
+        { printf '\4\60\0/pose\0\0\0,fffffff'; zeros 16; printf '\77\200'; zeros 14; } >"$2/osc"
+        {
+            printf '\4\0\1#bundle\0\0\0\0\5\200\0\0\0\0\0\0\64/pose/1\0,fffffffi\0\0\0\0'
+            zeros 11
+            printf '\77\200'
+            zeros 13
+            printf '\2'
+        } >"$2/osc_bundle"
+        ;;
     *) printf '\0' >"$2/zero" ;;
     esac
 }

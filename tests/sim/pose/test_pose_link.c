@@ -199,7 +199,7 @@ static void test_a_list_arrives_pose_by_pose_with_rising_times(void **state)
     const pose_list_t list = {.entry = entry, .count = STEPS};
     pose_link_t link;
     char error[POSE_LINK_MESSAGE_LENGTH] = "";
-    assert_true(pose_send_check(&list, false, error));
+    assert_true(pose_send_check(&(pose_send_t){.list = &list}, error));
     assert_true(pose_link_open(&link, server.address, false, error));
     size_t sent = 0;
     struct timespec before;
@@ -269,9 +269,9 @@ static void test_poses_that_do_not_fit_are_found_before_sending(void **state)
     entry[1].pose.eye_nm[2] = INT64_C(90000000000);
     const pose_list_t list = {.entry = entry, .count = STEPS};
     char error[POSE_LINK_MESSAGE_LENGTH] = "";
-    assert_false(pose_send_check(&list, false, error));
+    assert_false(pose_send_check(&(pose_send_t){.list = &list}, error));
     assert_non_null(strstr(error, "pose 2: farther than 83.886 m"));
-    assert_true(pose_send_check(&list, true, error));
+    assert_true(pose_send_check(&(pose_send_t){.list = &list, .fd = true}, error));
 }
 
 static void test_servers_that_answer_wrongly_are_refused(void **state)
