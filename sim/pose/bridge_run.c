@@ -9,6 +9,7 @@
 
 #include "sim/devices/sim_clock.h"
 #include "sim/pose/pose_frames.h"
+#include "sim/pose/sync_send.h"
 #include "sim/pose/udp_listen.h"
 
 enum { LOOK_MS = 100, PROGRESS_EVERY_US = 1000000 };
@@ -58,18 +59,32 @@ static bool take_packet(bridge_run_t *run, uint64_t next[CAN_VIEWERS], char erro
     return send_poses(run, message, count, next, error);
 }
 
+/* Wait for the tracker, until bus time is due again. @return false when it has failed. */
+static bool turn(bridge_run_t *run, sync_send_t *sync, uint64_t next[CAN_VIEWERS], char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    int64_t wait_ms = LOOK_MS;
+    if (run->sync) {
+        if (!sync_send(sync, run->link, error))
+            return false;
+        const int64_t due_ms = (sync->due_us - sim_clock_monotonic_us()) / 1000 + 1;
+        wait_ms = due_ms < 0 ? 0 : due_ms < LOOK_MS ? due_ms : LOOK_MS;
+    }
+    struct pollfd tracker = {.fd = run->listener, .events = POLLIN};
+    return poll(&tracker, 1, (int)wait_ms) <= 0 || take_packet(run, next, error);
+}
+
 bool bridge_run(bridge_run_t *run, char error[POSE_LINK_MESSAGE_LENGTH])
 {
     const int64_t start_us = sim_clock_monotonic_us();
     int64_t now_us = start_us, shown_us = start_us;
+    sync_send_t sync = {.due_us = start_us};
     uint64_t next[CAN_VIEWERS];
     /* A bridge started twice is not taken for a repetition. */
     for (int v = 0; v < CAN_VIEWERS; v++)
         next[v] = (uint64_t)start_us;
     run->sent = 0;
     while (!*run->stop && (run->duration_us == 0 || now_us - start_us < run->duration_us)) {
-        struct pollfd tracker = {.fd = run->listener, .events = POLLIN};
-        if (poll(&tracker, 1, LOOK_MS) > 0 && !take_packet(run, next, error))
+        if (!turn(run, &sync, next, error))
             return false;
         now_us = sim_clock_monotonic_us();
         if (run->show_progress && now_us - shown_us >= PROGRESS_EVERY_US) {

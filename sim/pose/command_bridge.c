@@ -12,13 +12,15 @@
 #include "sim/pose/udp_listen.h"
 #include "sim/program.h"
 
+enum { KEY_NO_SYNC = 256 };
+
 static const char program[] = "wallwarp-pose bridge";
 
 typedef struct {
     const tracker_protocol_t *protocol;
     const char *bus, *transform, *listen, *interface;
     int64_t duration_us; /* 0: without end */
-    bool fd;
+    bool fd, no_sync;
 } options_t;
 
 static void choose_protocol(struct argp_state *state, options_t *options, const char *name)
@@ -53,6 +55,9 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         return 0;
     case 'f':
         options->fd = true;
+        return 0;
+    case KEY_NO_SYNC:
+        options->no_sync = true;
         return 0;
     case 't':
         options->transform = argument;
@@ -91,6 +96,7 @@ static int run_bridge(const options_t *options, bridge_t *bridge, pose_link_t *l
                         .link = link,
                         .listener = listener,
                         .fd = options->fd,
+                        .sync = !options->no_sync,
                         .show_progress = isatty(STDERR_FILENO),
                         .duration_us = options->duration_us,
                         .stop = command_catch_stop()};
@@ -131,6 +137,7 @@ int command_bridge(int argc, char **argv)
         {"transform", 't', "FILE", 0, "Axes, unit, origin, bodies and eyes, in YAML: see sim/trackers/examples", 0},
         {"listen", 'l', "ADDR:PORT", 0, "Where packets arrive; a multicast address is joined", 0},
         {"interface", 'i', "ADDR", 0, "Join on the network interface of this address", 0},
+        {"no-sync", KEY_NO_SYNC, NULL, 0, "Leave it to another to give the time of the bus (Sync and FollowUp)", 0},
         {"seconds", 's', "S", 0, "End after S seconds, instead of on SIGINT", 0},
         {0},
     };

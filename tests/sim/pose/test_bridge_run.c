@@ -47,7 +47,7 @@ static void *run_rig(void *context)
     return NULL;
 }
 
-static void start(const socketcand_bench_t *bench, const char *protocol, const char *transform_path)
+static void start(const socketcand_bench_t *bench, const char *protocol, const char *transform_path, bool sync)
 {
     tracker_transform_t transform;
     char error[ROOM_MESSAGE_LENGTH];
@@ -56,7 +56,8 @@ static void start(const socketcand_bench_t *bench, const char *protocol, const c
     bridge_init(&rig.bridge, tracker_protocol_named(protocol), &transform);
     const int listener = udp_listen_open("127.0.0.1:0", NULL, &rig.port, rig.error);
     assert_true(listener >= 0);
-    rig.run = (bridge_run_t){.bridge = &rig.bridge, .link = &rig.link, .listener = listener, .stop = &rig.stop};
+    rig.run =
+        (bridge_run_t){.bridge = &rig.bridge, .link = &rig.link, .listener = listener, .sync = sync, .stop = &rig.stop};
     snprintf(rig.bus, sizeof rig.bus, "127.0.0.1:%d", socketcand_server_port(bench->server));
     assert_int_equal(pthread_create(&rig.thread, NULL, run_rig, NULL), 0);
 }
@@ -104,7 +105,7 @@ static void test_a_packet_becomes_a_pose_on_the_bus(void **state)
     (void)state;
     const socketcand_bench_t bench = socketcand_bench_begin();
     const uint64_t before_us = (uint64_t)sim_clock_monotonic_us();
-    start(&bench, "freed", "sim/trackers/examples/freed.yaml");
+    start(&bench, "freed", "sim/trackers/examples/freed.yaml", false);
     uint8_t counter = 0;
     for (int n = 0; n < 20; n++) {
         const tracker_bytes_t packet =
@@ -131,11 +132,42 @@ static void test_a_packet_becomes_a_pose_on_the_bus(void **state)
     socketcand_bench_end(&bench);
 }
 
+/* Sync and FollowUp, when nothing comes from the tracker: of one counter, and on this machine's clock. */
+static void test_bus_time_is_given(void **state)
+{
+    (void)state;
+    const socketcand_bench_t bench = socketcand_bench_begin();
+    start(&bench, "freed", "sim/trackers/examples/freed.yaml", true);
+    const int64_t end_us = sim_clock_monotonic_us() + PATIENCE_US;
+    int pairs = 0, counter = -1;
+    while (pairs < 3) {
+        hal_can_frame_t frame;
+        can_sync_t sync;
+        can_follow_up_t follow_up;
+        if (sim_clock_monotonic_us() > end_us)
+            fail_msg("no bus time has come: %s", rig.error);
+        socketcand_bench_turn(&bench, 1);
+        if (hal_can_receive(bench.board, &frame) != HAL_OK)
+            continue;
+        if (can_sync_decode(&sync, &frame) == CAN_CHECK_OK) {
+            assert_true(counter < 0 || sync.counter == (counter + 1) % CAN_E2E_P01_COUNTERS);
+            counter = sync.counter;
+            continue;
+        }
+        assert_int_equal(can_follow_up_decode(&follow_up, &frame), CAN_CHECK_OK);
+        assert_int_equal(follow_up.counter, counter);
+        assert_true(follow_up.time_us <= (uint64_t)sim_clock_monotonic_us());
+        pairs++;
+    }
+    stop(&bench);
+    socketcand_bench_end(&bench);
+}
+
 static void test_two_viewers_have_counters_of_their_own(void **state)
 {
     (void)state;
     const socketcand_bench_t bench = socketcand_bench_begin();
-    start(&bench, "dtrack", "sim/trackers/examples/dtrack.yaml");
+    start(&bench, "dtrack", "sim/trackers/examples/dtrack.yaml", false);
     uint8_t counter[2] = {0, 0};
     for (int n = 0; n < 3; n++) {
         char text[256];
@@ -163,7 +195,7 @@ static void test_what_cannot_be_sent_is_counted(void **state)
 {
     (void)state;
     const socketcand_bench_t bench = socketcand_bench_begin();
-    start(&bench, "freed", "sim/trackers/examples/freed.yaml");
+    start(&bench, "freed", "sim/trackers/examples/freed.yaml", false);
     tracker_bytes_t packet = tracker_bytes_freed(1, (const double[3]){0, 0, 0}, (const double[3]){90000, 0, 0});
     send_packet(&packet);
     packet.bytes[2] ^= 1;
@@ -185,6 +217,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_packet_becomes_a_pose_on_the_bus),
+        cmocka_unit_test(test_bus_time_is_given),
         cmocka_unit_test(test_two_viewers_have_counters_of_their_own),
         cmocka_unit_test(test_what_cannot_be_sent_is_counted),
     };
