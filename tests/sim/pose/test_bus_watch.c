@@ -239,6 +239,23 @@ static void test_silence_and_strangers(void **state)
     assert_said(&s, 2, "BAD  no poses");
 }
 
+static void test_bus_time_is_known(void **state)
+{
+    (void)state;
+    scene_t s = scene();
+    hal_can_frame_t frame;
+    assert_true(can_sync_encode(&frame, &(can_sync_t){.number = 0}));
+    send(&s, frame, 1000000);
+    assert_true(can_follow_up_encode(&frame, &(can_follow_up_t){.number = NODE}));
+    send(&s, frame, 1010000);
+    assert_true(can_time_encode(&frame, &(can_time_t){.node = NODE}));
+    send(&s, frame, 1020000);
+    assert_true(s.watch.unknown == 0 && s.watch.damaged == 0);
+    frame.data[3] ^= 1;
+    send(&s, frame, 1030000);
+    assert_true(s.watch.unknown == 0 && s.watch.damaged == 1);
+}
+
 static void test_both_messages_of_one_viewer_are_said(void **state)
 {
     (void)state;
@@ -260,6 +277,7 @@ int main(void)
         cmocka_unit_test(test_each_fault_is_said),
         cmocka_unit_test(test_each_fault_of_a_board_is_said),
         cmocka_unit_test(test_silence_and_strangers),
+        cmocka_unit_test(test_bus_time_is_known),
         cmocka_unit_test(test_both_messages_of_one_viewer_are_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
