@@ -15,6 +15,9 @@ if [ $# = 0 ]; then
     set -- "${@%.c}"
 fi
 
+# A picture turned by 45 degrees: the numbers of a homography.
+turned='\47\0\0\0\0\152\251\0\0\0\0\152\1\0\51\0\0\0\0\152\1\47\0\0\0\0\152\256\0\0\0\0\0\72'
+
 # The tree's own files to begin with; few formats have none here.
 seed() {
     case $1 in
@@ -57,7 +60,6 @@ seed() {
         done
         # Every method on a panel of 3 x 3 tiles, gray or in colour: a picture turned by 45 degrees and twice as dense as
         # the panel, and one 5.5 times as dense. Tiles read across its edges, and more than is copied at once.
-        turned='\47\0\0\0\0\152\251\0\0\0\0\152\1\0\51\0\0\0\0\152\1\47\0\0\0\0\152\256\0\0\0\0\0\72'
         dense='\53\0\0\0\0\200\4\0\0\0\53\0\0\0\0\200\4'
         for method in $(seq 0 20); do
             # shellcheck disable=SC2059
@@ -107,6 +109,23 @@ seed() {
             zeros 13
             printf '\2'
         } >"$2/osc_bundle"
+        ;;
+    fuzz_formats)
+        # Every method, from every format to every format: of one colour and of many, as it comes and turned, and
+        # on a panel of odd height.
+        for method in $(seq 0 20); do
+            for format in $(seq 0 6); do
+                panel=$(((method + format) % 7))
+                # shellcheck disable=SC2059
+                {
+                    name=$2/$method-$format
+                    printf "\\0\\0\\$(printf %o "$method")\\$format\\0\\1\\5" >"$name-xrgb"
+                    printf "\\0\\167\\$(printf %o "$method")\\$format\\6\\2\\3" >"$name-nv12"
+                    printf "\\6\\167\\$(printf %o "$method")\\$format\\4\\3\\4\\351\\351\\26\\351$turned" >"$name-yuyv"
+                    printf "\\16\\167\\$(printf %o "$method")\\$format\\$panel\\1\\2\\351\\351\\27\\351$turned" >"$name-odd"
+                }
+            done
+        done
         ;;
     *) printf '\0' >"$2/zero" ;;
     esac
