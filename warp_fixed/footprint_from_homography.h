@@ -14,6 +14,8 @@ enum { FOOTPRINT_BAND = 16, FOOTPRINT_MAX_STEP_Q16 = 4096 << 16 };
 typedef struct {
     int32_t in_q16;  /**< over neighbours that both land in the picture; 0 when there is no such pair */
     int32_t all_q16; /**< over the whole panel; FOOTPRINT_MAX_STEP_Q16 when part of it is behind the viewer */
+    int32_t
+        pixel[2]; /**< of the panel, column and row: the first of two neighbours that are in_q16 apart; 0, 0 if none */
 } footprint_step_t;
 
 /**

@@ -232,5 +232,6 @@ footprint_step_t footprint_step(const homography_t *homography)
         find_largest(&in, &all, &lines, edge, edges);
     }
     return (footprint_step_t){distance_q16(homography, &in),
-                              lines.in_front ? distance_q16(homography, &all) : FOOTPRINT_MAX_STEP_Q16};
+                              lines.in_front ? distance_q16(homography, &all) : FOOTPRINT_MAX_STEP_Q16,
+                              {in.ij[in.axis], in.ij[1 - in.axis]}};
 }

@@ -160,10 +160,10 @@ static void update_axis(ls_axis_t *axis, int32_t size, int32_t step, const uint1
     ls_axis_update(axis, size, k_q16, step != 1 ? own : weight);
 }
 
-void ls_begin(ls_t *ls, int plane, const image_t *picture, const image_t *whole, int32_t k_q16)
+void ls_begin(ls_t *ls, int plane, const image_t *picture, const image_t *whole, chroma_step_t step)
 {
-    update_axis(&ls->plane[plane].x, picture->width, whole->width / picture->width, ls->weights.x, k_q16);
-    update_axis(&ls->plane[plane].y, picture->height, whole->height / picture->height, ls->weights.y, k_q16);
+    update_axis(&ls->plane[plane].x, picture->width, whole->width / picture->width, ls->weights.x, step.x_q16);
+    update_axis(&ls->plane[plane].y, picture->height, whole->height / picture->height, ls->weights.y, step.y_q16);
     for (int32_t w = 0; w < WORKERS_MAX; w++)
         ls->strip[w].largest[plane] = 0;
 }
@@ -277,7 +277,7 @@ ls_surface_t ls_surface(const ls_t *ls, int plane)
 
 ls_surface_t ls_fit(ls_t *ls, const warp_kernels_t *kernels, const image_t *picture, int32_t k_q16)
 {
-    ls_begin(ls, 0, picture, picture, k_q16);
+    ls_begin(ls, 0, picture, picture, (chroma_step_t){k_q16, k_q16});
     ls_fit_rows(ls, kernels, 0, picture, only_worker);
     ls_fit_columns(ls, kernels, 0, picture, only_worker);
     return ls_surface(ls, 0);

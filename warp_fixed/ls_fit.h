@@ -5,6 +5,7 @@
 
 #include <stdint.h>
 
+#include "warp_fixed/chroma_step.h"
 #include "warp_fixed/image.h"
 #include "warp_fixed/kernels.h"
 #include "warp_fixed/ls_axis.h"
@@ -59,9 +60,10 @@ void ls_set_weights(ls_t *ls, const ls_weights_t *weights);
  * @param picture  Of any size and format (image.h); its size alone matters here.
  * @param whole    The picture that the weights are for: itself, or, for chroma, the luma, whose size is 1 or 2 times
  * the chroma's along each axis. Then it has the weights of every second column or row.
- * @param k_q16    k <= 1 interpolates; between 1 and 1.25 counts as 1.25.
+ * @param step     k along x and y, which are equal but for chroma; k <= 1 interpolates; between 1 and 1.25 counts as
+ *                 1.25.
  */
-void ls_begin(ls_t *ls, int plane, const image_t *picture, const image_t *whole, int32_t k_q16);
+void ls_begin(ls_t *ls, int plane, const image_t *picture, const image_t *whole, chroma_step_t step);
 
 /** Fit a worker's rows of the picture, along x. */
 void ls_fit_rows(ls_t *ls, const warp_kernels_t *kernels, int plane, const image_t *picture, worker_t worker);

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "warp_fixed/chroma_step.h"
 #include "warp_fixed/fir_design.h"
 #include "warp_fixed/image.h"
 #include "warp_fixed/kernels.h"
@@ -18,23 +19,29 @@ typedef struct {
     bool splines;
 } prefilter_kind_t;
 
+typedef struct {
+    prefilter_kind_t kind;
+    fir_t fir;
+} prefilter_design_t;
+
+enum { PREFILTER_DESIGNS = 3 };
+
 /** The first pass of rows, with mirrored ends. */
 typedef struct {
     int16_t sums[FILTER_ROWS][(IMAGE_MAX_WIDTH + 2 * PREFILTER_MAX_RADIUS) * 4];
 } prefilter_rows_t;
 
-/** The last filter, and what it has made of this frame's picture: 93 MB, touched as far as a picture needs them. */
+/** The last filters, and what they have made of this frame's picture: 93 MB, touched as far as a picture needs them. */
 typedef struct {
-    prefilter_kind_t kind;
-    fir_t fir;
-    prefilter_rows_t rows[WORKERS_MAX]; /**< each worker's */
+    prefilter_design_t design[PREFILTER_DESIGNS]; /**< of a picture or its luma; of its chroma along x, along y */
+    prefilter_rows_t rows[WORKERS_MAX];           /**< each worker's */
     union {
         uint8_t pixels[IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT * 4];
         int16_t coefficients[IMAGE_MAX_WIDTH * IMAGE_MAX_HEIGHT * 4 + LEVELS_BYTES]; /**< the picture's, its levels' */
     };
 } prefilter_t;
 
-/** Forget the last filter. */
+/** Forget the last filters. */
 void prefilter_init(prefilter_t *prefilter);
 
 /**
@@ -45,6 +52,9 @@ void prefilter_init(prefilter_t *prefilter);
  * @return false when nothing is to be filtered: resample the picture itself.
  */
 bool prefilter_begin(prefilter_t *prefilter, warp_filter_t filter, int32_t k_q16, bool splines);
+
+/** The same for the chroma of the picture, plane 1, with a step for each axis. After prefilter_begin(). */
+bool prefilter_begin_chroma(prefilter_t *prefilter, warp_filter_t filter, chroma_step_t step, bool splines);
 
 /** @return A view into `prefilter`, of the filtered picture as prefilter_make_pixels() writes it: a picture's only
  * plane is 0. */

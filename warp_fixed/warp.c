@@ -17,7 +17,7 @@ bool warp_needs(const warp_t *warp, warp_step_t step)
     case WARP_REDUCE:
         return warp->any_lit && averages;
     case WARP_FILTER:
-        return warp->filtered;
+        return warp->plane[0].filtered || (warp->planes == 2 && warp->plane[1].filtered);
     case WARP_FIT_ROWS:
     case WARP_FIT_COLUMNS:
         return warp->any_lit && fits;
@@ -105,7 +105,7 @@ static void work_on_plane(warp_t *warp, warp_step_t step, int plane, worker_t wo
     const image_t *picture = &warp->plane[plane].picture;
     if (step == WARP_REDUCE)
         reduce(warp, plane, worker);
-    else if (step == WARP_FILTER)
+    else if (step == WARP_FILTER && warp->plane[plane].filtered)
         filter(warp, plane, worker);
     else if (step == WARP_FIT_ROWS)
         ls_fit_rows(&warp->ls, warp->kernels, plane, picture, worker);

@@ -32,6 +32,7 @@ typedef struct {
     image_t picture;
     uint8_t border[4]; /**< a pixel that is not lit */
     grid_t grid;
+    bool filtered;                      /**< read is what the prefilter makes of the picture */
     int32_t bands;                      /**< of WARP_BAND_ROWS rows of the panel, the last may have less */
     uint8_t block_log2[WARP_MAX_BANDS]; /**< size of the band's blocks */
     warp_block_t block[WARP_MAX_BANDS][IMAGE_MAX_WIDTH / FOOTPRINT_BAND]; /**< of bands where they have the full size */
@@ -73,7 +74,6 @@ typedef struct {
     bool step_known; /**< else the frame did not need it */
     footprint_step_t step;
     bool any_lit;
-    bool filtered;      /**< read is what the prefilter makes of the picture */
     int32_t unit_bands; /**< bands are dealt in units of so many of plane 0, and one of plane 1 */
     int32_t units;
     int32_t cost_before[WARP_MAX_BANDS + 1]; /**< of all units above */
@@ -146,10 +146,9 @@ typedef enum {
  * @param      panel       Destination; must not overlap the picture. Both stay until the last step is done.
  * @param      picture     Source. GRAY8 goes to GRAY8; XRGB8888, RGB888 and BGR888 to XRGB8888; YUYV, UYVY and NV12 to
  *                         XRGB8888, YUYV and NV12. Luma and chroma are warped apart, the chroma at its own size with
- *                         the homography of its pixels (homography_of_chroma.h) and the luma's step k, and put
- *                         together last; for XRGB8888 a panel pixel has the chroma of its rectangle (picture.h), of
- *                         the picture's kind, and so its size must be even as a picture's of that format. A panel of
- *                         YUV gets the picture's matrix, whatever its own.
+ *                         the homography of its pixels (homography_of_chroma.h) and its own step (chroma_step.h), and
+ * put together last; for XRGB8888 a panel pixel has the chroma of its rectangle (picture.h), of the picture's kind, and
+ * so its size must be even as a picture's of that format. A panel of YUV gets the picture's matrix, whatever its own.
  * @return false, and nothing written, when a size is not the homography's, or a format or stride is not as above and
  *         in picture.h.
  *

@@ -86,7 +86,7 @@ static window_t window_of(const rows_t *rows, const warp_block_t *block)
     warp_t *warp = rows->warp;
     const image_t *picture = &rows->plane->picture;
     const window_weights_t *weights =
-        &warp->table[warp->filtered ? warp->coefficient_table : warp->texel_table].weights;
+        &warp->table[rows->plane->filtered ? warp->coefficient_table : warp->texel_table].weights;
     const level_t level = {block->x.level, block->y.level, rows->number};
     window_t window = {
         .x = window_axis(weights, block->x.side),
@@ -97,7 +97,7 @@ static window_t window_of(const rows_t *rows, const warp_block_t *block)
         .level_x = level.x,
         .level_y = level.y,
     };
-    if (warp->filtered)
+    if (rows->plane->filtered)
         window.coefficients = prefilter_coefficients(&warp->prefilter, &window.picture, level);
     return window;
 }
@@ -108,14 +108,15 @@ static void make_patch(const rows_t *rows, const patch_t *patch, const warp_bloc
     const image_t *picture = &rows->plane->picture;
     const loops_t loops = loops_for(warp->kernels, picture->format);
     if (warp->resampler == WARP_NEAREST) {
-        const image_t from = warp->filtered ? prefilter_pixels(&warp->prefilter, picture, rows->number) : *picture;
+        const image_t from =
+            rows->plane->filtered ? prefilter_pixels(&warp->prefilter, picture, rows->number) : *picture;
         loops.nearest(patch, &from);
     } else if (warp->resampler == WARP_LS) {
         const ls_surface_t surface = ls_surface(&warp->ls, rows->number);
         loops.ls(patch, &surface);
     } else {
         const window_t window = window_of(rows, block);
-        (warp->filtered ? loops.coefficients : loops.window)(patch, &window);
+        (rows->plane->filtered ? loops.coefficients : loops.window)(patch, &window);
     }
 }
 

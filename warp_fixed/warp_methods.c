@@ -75,7 +75,7 @@ void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t 
     warp->border[3] = 0;
     warp->tables = 0;
     warp->step_known = true;
-    warp->step = (footprint_step_t){0, 0};
+    warp->step = (footprint_step_t){.in_q16 = 0};
     warp->fits = method.resampler == WARP_LS;
     if (warp->fits)
         ls_init(&warp->ls);

@@ -90,20 +90,34 @@ static bool any_lit(const warp_plane_t *plane)
     return lit > 0;
 }
 
-/* The filter, or the axes to fit, of this frame's step. */
+/* The step along each axis of the present frame's chroma. */
+static chroma_step_t plan_chroma_step(const warp_t *warp, int32_t k_q16)
+{
+    const int panel = picture_chroma_rows_log2(chroma_format(&warp->panel, &warp->picture));
+    const int picture = picture_chroma_rows_log2(warp->picture.format);
+    return chroma_step(&warp->homography, k_q16, warp->step.pixel, (chroma_log2_t){1, panel},
+                       (chroma_log2_t){1, picture});
+}
+
+/* The filters, or the axes to fit, of this frame's step. */
 static void plan_pictures(warp_t *warp, int32_t k_q16)
 {
+    const bool filters = warp->any_lit && warp->filters, splines = warp_splines(warp->resampler);
+    const warp_filter_t filter = warp->method.filter;
+    chroma_step_t step = {k_q16, k_q16};
     const bool fits = warp->resampler == WARP_LS;
     for (int32_t w = 0; w < WORKERS_MAX; w++)
         for (int n = 0; n < PICTURE_MAX_PLANES * LEVELS * LEVELS; n++)
             warp->scratch[w].wanted[n / (LEVELS * LEVELS)][n / LEVELS % LEVELS][n % LEVELS] = false;
     for (int p = 0; p < warp->planes; p++) {
         warp->scratch[0].wanted[p][0][0] = !warp_averages(warp->resampler);
+        if (p == 1 && warp->step_known)
+            step = plan_chroma_step(warp, k_q16);
         if (warp->any_lit && fits)
-            ls_begin(&warp->ls, p, &warp->plane[p].picture, &warp->plane[0].picture, k_q16);
+            ls_begin(&warp->ls, p, &warp->plane[p].picture, &warp->plane[0].picture, step);
+        warp->plane[p].filtered = filters && (p == 0 ? prefilter_begin(&warp->prefilter, filter, k_q16, splines)
+                                                     : prefilter_begin_chroma(&warp->prefilter, filter, step, splines));
     }
-    warp->filtered = warp->any_lit && warp->filters &&
-                     prefilter_begin(&warp->prefilter, warp->method.filter, k_q16, warp_splines(warp->resampler));
 }
 
 /* @return The step that the frame is made for; 0 for methods that do not need it. */
@@ -111,7 +125,7 @@ static int32_t plan_step(warp_t *warp, const homography_t *homography)
 {
     warp->homography = *homography;
     warp->step_known = warp->filters || warp->method.resampler == WARP_LS;
-    warp->step = warp->step_known ? footprint_step(homography) : (footprint_step_t){0, 0};
+    warp->step = warp->step_known ? footprint_step(homography) : (footprint_step_t){.in_q16 = 0};
     return warp->step_all ? warp->step.all_q16 : warp->step.in_q16;
 }
 

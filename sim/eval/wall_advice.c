@@ -42,7 +42,7 @@ static void survey_place(wall_advice_t *advice, seen_t *seen, const wall_place_t
     }
     const pose_t pose = wall_place_look(place, eye_mm, walk->up);
     homography_t homography;
-    footprint_step_t step = {0, 0};
+    footprint_step_t step = {.in_q16 = 0};
     if (homography_from_pose(&homography, walk->camera, &board->wall, &pose))
         step = footprint_step(&homography);
     if (step.in_q16 == 0) {

@@ -61,13 +61,15 @@ double bench_seven_taps_sigma(void)
 bool bench_seven_taps(prefilter_t *prefilter, warp_filter_t filter)
 {
     const int32_t k_q16 = SEVEN_TAPS_K << 16;
-    prefilter->kind = (prefilter_kind_t){filter, k_q16, false};
-    fir_design(&prefilter->fir, WARP_FILTER_GAUSS, k_q16, false);
-    if (prefilter->fir.radius != SEVEN_TAPS_RADIUS)
+    fir_t *fir = &prefilter->design[0].fir;
+    prefilter->design[0].kind = (prefilter_kind_t){filter, k_q16, false};
+    fir_design(fir, WARP_FILTER_GAUSS, k_q16, false);
+    if (fir->radius != SEVEN_TAPS_RADIUS)
         return false;
     if (filter == WARP_FILTER_KAISER) {
         const int16_t weight[] = {6398, 4608, 768, -383};
-        memcpy(prefilter->fir.weight, weight, sizeof weight);
+        memcpy(fir->weight, weight, sizeof weight);
     }
-    return prefilter_begin(prefilter, filter, k_q16, false);
+    return prefilter_begin(prefilter, filter, k_q16, false) &&
+           prefilter_begin_chroma(prefilter, filter, (chroma_step_t){k_q16, k_q16}, false);
 }

@@ -202,7 +202,7 @@ static void small_k_and_constants_pass(void **state)
     }
     /* Beyond the largest k the filter stays what it is there. */
     assert_true(prefilter_begin(&prefilter, WARP_FILTER_GAUSS, INT32_MAX, false));
-    assert_int_equal(prefilter.kind.k_q16, FIR_MAX_K_Q16);
+    assert_int_equal(prefilter.design[0].kind.k_q16, FIR_MAX_K_Q16);
 }
 
 /*
@@ -230,12 +230,41 @@ static void weights_follow_k(void **state)
     }
 }
 
+/* A picture that varies along one axis is filtered by that axis' step alone, whatever the other one. */
+static void test_steps_of_both_axes_of_chroma(void **state)
+{
+    (void)state;
+    static uint8_t bytes[WIDTH * HEIGHT * 2], expected[WIDTH * HEIGHT * 2];
+    const image_t picture = {bytes, WIDTH, HEIGHT, WIDTH * 2, IMAGE_UV88};
+    const chroma_step_t steps[] = {{3 << 16, 5 << 15}, {1 << 16, 4 << 16}, {70000, 1 << 16}, {2 << 16, 2 << 16}};
+    for (int n = 0; n < 24; n++) {
+        const warp_filter_t filter = (warp_filter_t)(1 + n % 3);
+        const chroma_step_t step = steps[n / 3 % 4];
+        const bool along_y = n / 12 != 0;
+        const int32_t k_q16 = along_y ? step.y_q16 : step.x_q16;
+        rng_t rng = {(uint64_t)n + 1};
+        for (int32_t k = 0; k < (along_y ? HEIGHT : WIDTH) * 2; k++) {
+            const uint8_t value = (uint8_t)rng_int(&rng, 0, 255);
+            for (int32_t i = 0; i < (along_y ? WIDTH : HEIGHT); i++)
+                bytes[along_y ? (k / 2 * WIDTH + i) * 2 + k % 2 : i * WIDTH * 2 + k] = value;
+        }
+        prefilter_init(&prefilter);
+        memcpy(expected, bytes, sizeof bytes);
+        if (prefilter_begin(&prefilter, filter, k_q16, false))
+            memcpy(expected, pixels_of(&picture).data, sizeof expected);
+        assert_true(prefilter_begin_chroma(&prefilter, filter, step, false));
+        prefilter_make_pixels(&prefilter, &warp_kernels_scalar, &picture, 1, only_worker);
+        assert_memory_equal(prefilter_pixels(&prefilter, &picture, 1).data, expected, sizeof expected);
+    }
+    assert_false(prefilter_begin_chroma(&prefilter, WARP_FILTER_GAUSS, (chroma_step_t){1 << 16, 1 << 15}, false));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(taps_are_the_filters),  cmocka_unit_test(overshoot_saturates),
         cmocka_unit_test(pictures_are_filtered), cmocka_unit_test(small_k_and_constants_pass),
-        cmocka_unit_test(weights_follow_k),
+        cmocka_unit_test(weights_follow_k),      cmocka_unit_test(test_steps_of_both_axes_of_chroma),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
