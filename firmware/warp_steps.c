@@ -17,7 +17,7 @@ static void do_part(void *context, int32_t part, int32_t parts)
 
 void warp_steps_run(warp_t *warp, hal_workers_t *workers)
 {
-    for (work_t work = {warp, WARP_TAKE}; work.step <= WARP_DRAW; work.step++)
+    for (work_t work = {warp, WARP_MEASURE}; work.step <= WARP_DRAW; work.step++)
         if (warp_needs(warp, work.step))
             hal_workers_run(workers, do_part, &work);
 }

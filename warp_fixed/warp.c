@@ -137,7 +137,7 @@ bool warp_frame(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *repo
         return false;
     if (report != NULL)
         warp_report_step(warp, report);
-    for (warp_step_t step = WARP_TAKE; step <= WARP_DRAW; step++)
+    for (warp_step_t step = WARP_MEASURE; step <= WARP_DRAW; step++)
         if (warp_needs(warp, step))
             warp_work(warp, step, only_worker);
     return true;

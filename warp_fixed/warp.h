@@ -126,8 +126,8 @@ void warp_set_ls_weights(warp_t *warp, const ls_weights_t *weights);
 
 /** What is done for a frame after its plan, in this order. */
 typedef enum {
-    WARP_TAKE,        /**< the picture's planes, where its format has no such planes */
     WARP_MEASURE,     /**< sides of all blocks */
+    WARP_TAKE,        /**< the picture's planes, where its format has no such planes: what the panel shows of them */
     WARP_REDUCE,      /**< levels that these need */
     WARP_FILTER,      /**< filtered picture, or coefficients */
     WARP_FIT_ROWS,    /**< method ls: along x, */

@@ -17,7 +17,10 @@ bool warp_converts(const warp_t *warp);
 /** @return A plane of the present picture, as it came or as warp_take() will make it. */
 image_t warp_converted_plane(warp_t *warp, int plane);
 
-/** Take a worker's rows of the picture apart. */
+/**
+ * Take a worker's rows of the picture apart: of a rectangle around all that is seen on the panel, as far out as windows
+ * reach; or of all of the picture when it is filtered, fitted or reduced first. For a frame in which something is lit.
+ */
 void warp_take(warp_t *warp, worker_t worker);
 
 /** @return Where a worker draws a plane's rows from first_row on: the panel, or rows of its own. */

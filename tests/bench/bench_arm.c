@@ -147,7 +147,7 @@ static bool run_frame(const warp_kernels_t *kernels, const homography_t *homogra
     warp_init(&warp, *warp_method_from_name(method), false, border);
     bench_begin();
     const bool made = warp_plan(&warp, kernels, &report, homography, panel, picture);
-    for (warp_step_t step = WARP_TAKE; made && step <= WARP_DRAW; step++)
+    for (warp_step_t step = WARP_MEASURE; made && step <= WARP_DRAW; step++)
         if (warp_needs(&warp, step))
             warp_work(&warp, step, only_worker);
     bench_end();

@@ -160,7 +160,7 @@ static bool make_frame(warp_t *warp, const warp_kernels_t *kernels, const homogr
     if (!warp_plan(warp, kernels, &report, homography, panel, picture))
         return false;
     fuzz_check(report.k_in_q16 >= 0 && report.k_in_q16 <= FOOTPRINT_MAX_STEP_Q16, "k is in range");
-    for (warp_step_t step = WARP_TAKE; step <= WARP_DRAW; step++)
+    for (warp_step_t step = WARP_MEASURE; step <= WARP_DRAW; step++)
         for (int32_t w = 0; w < workers && warp_needs(warp, step); w++)
             warp_work(warp, step, (worker_t){w, workers});
     return true;

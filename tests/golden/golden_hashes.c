@@ -113,7 +113,7 @@ static void print_yuv(const viewpoint_t *viewpoint, const warp_method_t *method,
     const bool made = wall_from_corners(&wall, &corners) == WALL_OK &&
                       homography_from_pose(&homography, &camera, &wall, &viewpoint->pose) &&
                       warp_plan(&warp, kernels, NULL, &homography, &panel, &picture);
-    for (warp_step_t step = WARP_TAKE; made && step <= WARP_DRAW; step++)
+    for (warp_step_t step = WARP_MEASURE; made && step <= WARP_DRAW; step++)
         if (warp_needs(&warp, step))
             warp_work(&warp, step, only_worker);
     printf("%s/%s/%s to %s %016" PRIx64 "%s\n", viewpoint->name, method->name, names[from], names[to],
