@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "firmware/can_frame_clock.h"
 #include "firmware/can_protocol.h"
 
 enum { POSE_CYCLE_MS = 4 };
@@ -161,6 +162,28 @@ static void print_times(void)
     }
 }
 
+static void print_frame_clock(void)
+{
+    hal_can_frame_t frame;
+    const can_frame_clock_t clock = {
+        .node = 1, .counter = 6, .epoch = 11, .sure = true, .from = 51234, .phase_us = 16123, .lag_us = 34568};
+    check(can_frame_clock_encode(&frame, &clock));
+    print_frame("FrameClock", &frame, CAN_FRAME_CLOCK_PERIOD_MS);
+    printf("signal FrameClockCounter 6\nsignal FrameClockEpoch 11\nsignal FrameClockFrom 51234\n"
+           "signal FrameClockPhase 16123\nsignal FrameClockLag 34568\nsignal FrameClockSure 1\n"
+           "signal FrameClockToCome 0\nsignal FrameClockChanges 0\n");
+    const can_step_t step = {.node = 1,
+                             .counter = 7,
+                             .in_step = true,
+                             .refresh = 65536 + 12345,
+                             .picture = 54321,
+                             .pose_us = 6553600 + 1234599};
+    check(can_step_encode(&frame, &step));
+    print_frame("Step", &frame, CAN_STEP_PERIOD_MS);
+    printf("signal StepCounter 7\nsignal StepInStep 1\nsignal StepTagged 0\nsignal StepReserved 0\n"
+           "signal StepRefresh 12345\nsignal StepPicture 54321\nsignal StepPose 1234500\n");
+}
+
 /* One heartbeat for each fault flag, so that no two flags can be confused. */
 static void print_heartbeats(void)
 {
@@ -201,6 +224,7 @@ int main(void)
     print_qualities();
     print_sync();
     print_times();
+    print_frame_clock();
     print_heartbeats();
     return 0;
 }

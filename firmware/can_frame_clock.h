@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two messages by which boards agree on frames: FrameClock tells the numbers, Step proves what was shown.
+#ifndef FIRMWARE_CAN_FRAME_CLOCK_H
+#define FIRMWARE_CAN_FRAME_CLOCK_H
+
+#include "firmware/can_protocol.h"
+
+enum {
+    CAN_ID_FRAME_CLOCK = 0x140, /**< + node */
+    CAN_ID_STEP = 0x500,        /**< + node */
+    CAN_EPOCHS = 16,
+    CAN_FRAME_CLOCK_PERIOD_MS = 25,
+    CAN_STEP_EVERY = 6,      /**< refreshes: reported are those whose number is a multiple of it */
+    CAN_STEP_PERIOD_MS = 100 /**< which that is at 60 Hz */
+};
+
+/** Which refresh has which number, and what belongs to it: see frame_clock.h. */
+typedef struct {
+    uint8_t node;      /**< of the board that leads, 1 to CAN_MAX_NODE */
+    uint8_t counter;   /**< 0 to 14 */
+    uint8_t epoch;     /**< one more with every change, modulo CAN_EPOCHS */
+    bool sure;         /**< the leader is in step; else it has just begun, or come back */
+    bool to_come;      /**< it does not hold yet */
+    bool changes;      /**< one that does not hold yet is announced beside this one */
+    uint16_t from;     /**< a refresh from which on it holds, modulo 2^16: one just past, or one to come */
+    uint16_t phase_us; /**< bus time of refresh number 0, less than a period */
+    uint16_t lag_us; /**< by how much pictures are captured before the refresh at which they are shown; sent in 8 us */
+} can_frame_clock_t;
+
+/** @return false when node, counter or epoch is out of range. */
+bool can_frame_clock_encode(hal_can_frame_t *frame, const can_frame_clock_t *clock);
+
+can_check_t can_frame_clock_decode(can_frame_clock_t *clock, const hal_can_frame_t *frame);
+
+/** What a board showed at one refresh; of all boards in step these are the same. */
+typedef struct {
+    uint8_t node;     /**< 1 to CAN_MAX_NODE */
+    uint8_t counter;  /**< 0 to 14 */
+    bool in_step;     /**< picture and pose are those that the rule asks for, and that is certain */
+    bool tagged;      /**< `picture` is the picture's own number */
+    uint32_t refresh; /**< number of the refresh; sent modulo 2^16 */
+    uint32_t picture; /**< number of the picture; sent modulo 2^16 */
+    uint64_t pose_us; /**< capture time of the pose sample, bus time; sent in 100 us modulo 2^16 */
+} can_step_t;
+
+/** @return false when node or counter is out of range. */
+bool can_step_encode(hal_can_frame_t *frame, const can_step_t *step);
+
+can_check_t can_step_decode(can_step_t *step, const hal_can_frame_t *frame);
+
+#endif

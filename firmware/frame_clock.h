@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// The same frame on all walls: numbers of refreshes that all boards share, and which picture and pose belong to each.
+//
+// Bus time says when, to 0.1 ms. That is not enough to choose the same pose sample on every board: one that was
+// captured just then would be taken by one board and left by another. So a refresh begins at a time that is computed,
+// not measured, from numbers that all boards have:
+//
+//   start(n) = n periods + phase        bus time, whole microseconds; the period is the room's refresh_hz
+//   n of a refresh is the one whose start is nearest to the vertical blank that the board has seen
+//   pose     the newest sample captured up to start(n) - pose_delay
+//   picture  the newest one captured up to start(n) - lag + period / 4
+//
+// Phase and lag are an epoch. One board leads, at first the one with the lowest node number: it announces the epoch
+// every CAN_FRAME_CLOCK_PERIOD_MS, and a new one (panels run faster or slower than bus time, video slides past the
+// panels) FRAME_CLOCK_AHEAD_US before it holds, so that no board misses it. Who has heard nothing for
+// FRAME_CLOCK_PROOF_US, whose own announcements do not get out, or whose panel is more than a quarter of a period off,
+// is not in step, and says so.
+//
+// When nobody has led for FRAME_CLOCK_SILENT_US and FRAME_CLOCK_TURN_US times its own number, a board begins to, with
+// the epoch that it knows: no number changes. Of two leaders the one stays that has a change under way, else the one
+// with the lower number; a change that was announced by a leader who goes is off. A leader that comes back after
+// bus-off, or whose announcements did not get out, listens first.
+//
+// Integers only, no pointers inside, constant time.
+#ifndef FIRMWARE_FRAME_CLOCK_H
+#define FIRMWARE_FRAME_CLOCK_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "firmware/can_frame_clock.h"
+#include "firmware/frame_rate.h"
+#include "hal/hal_can.h"
+
+enum {
+    FRAME_CLOCK_SILENT_US = 150000,
+    FRAME_CLOCK_TURN_US = 50000, /**< more than a refresh at 24 Hz: by then the one before has been heard */
+    FRAME_CLOCK_AHEAD_US = 1500000,
+    FRAME_CLOCK_PROOF_US = 1000000, /**< less than AHEAD: who has heard something since cannot have missed a change */
+    FRAME_CLOCK_DRIFT_US = 300,     /**< the leader's panel this far from start(n), on average, ends an epoch */
+    FRAME_CLOCK_LAG_REFRESHES = 30  /**< the lag's being wrong for so many refreshes in a row ends one too */
+};
+
+/** What holds from one refresh on. */
+typedef struct {
+    bool any;
+    uint8_t number; /**< modulo CAN_EPOCHS */
+    int64_t from;   /**< number of its first refresh */
+    int32_t phase_us, lag_us;
+} frame_epoch_t;
+
+/** One refresh, as frame_clock_step() found it. Times in bus time. */
+typedef struct {
+    bool in_step;   /**< these are certain to be every board's; else the best that is known */
+    int64_t number; /**< counted from bus time 0 on */
+    int64_t start_us;
+    int64_t pose_limit_us;    /**< the pose sample is the newest one captured up to here */
+    int64_t picture_limit_us; /**< the picture likewise */
+    int32_t off_us;           /**< by how much the board's blank was later than start_us */
+} frame_step_t;
+
+typedef struct {
+    uint8_t node;
+    frame_rate_t rate;
+    int32_t pose_delay_us;
+    frame_epoch_t now, next; /**< next.any: announced, does not hold yet */
+    bool leading;
+    uint8_t leader;   /**< whom it follows, or followed last; 0: nobody yet */
+    uint32_t changes; /**< of the leader, after the first one */
+    uint32_t missed;  /**< changes of the epoch that were noticed only when they held already */
+
+    int64_t quiet_since_us; /**< the module's own from here on: nobody has led since, on the board's clock */
+    int64_t proven_us;      /**< newest announcement heard, or own one that got out */
+    bool proven;
+    int64_t led_since_us, sent_us, due_us;
+    int64_t own_us, own_since_us; /**< own announcements got out, at last and without a gap since */
+    uint8_t counter;
+
+    int32_t off_q8;    /**< mean of off_us */
+    int32_t off_count; /**< refreshes in it */
+    int32_t lag_wrong; /**< refreshes in a row */
+} frame_clock_t;
+
+/** What the board has measured at a vertical blank. */
+typedef struct {
+    int64_t now_us;         /**< on the board's clock */
+    int64_t blank_us;       /**< bus time of the blank */
+    bool bus_time_known;    /**< else the board neither leads nor is in step */
+    int32_t picture_age_us; /**< the blank less the capture of the newest picture; < 0: there is none */
+} frame_blank_t;
+
+/**
+ * Begin to listen.
+ *
+ * @param node           1 to CAN_MAX_NODE.
+ * @param pose_delay_us  0 to 50000: from capture to arrival of a pose at every board, and a quarter of the time between
+ *                       two more.
+ */
+void frame_clock_init(frame_clock_t *clock, uint8_t node, frame_rate_t rate, int32_t pose_delay_us, int64_t now_us);
+
+/**
+ * Take a received frame, or one of its own that hal_can_receive() hands back.
+ *
+ * @param now_bus_us  Bus time; a refresh off does not matter.
+ * @return CAN_CHECK_OTHER when it is no FrameClock; CAN_CHECK_OK; or what is wrong with it: it is ignored.
+ */
+can_check_t frame_clock_hear(frame_clock_t *clock, const hal_can_frame_t *frame, int64_t now_us, int64_t now_bus_us);
+
+/** The controller was bus-off: others may have gone on, so listen first. */
+void frame_clock_lost_bus(frame_clock_t *clock, int64_t now_us);
+
+/** Number this refresh; lead, announce and begin epochs when it is this board's turn. Call it once a blank. */
+frame_step_t frame_clock_step(frame_clock_t *clock, hal_can_t *can, const frame_blank_t *blank);
+
+/** @return Bus time at which a refresh begins. */
+int64_t frame_clock_start_us(const frame_clock_t *clock, int64_t number);
+
+/** @return Number of the first refresh that shows a picture captured then: its own number when it has no tag. */
+int64_t frame_clock_picture_number(const frame_clock_t *clock, int64_t capture_bus_us);
+
+#endif
