@@ -46,20 +46,33 @@ static inline uint64_t square_q32(slope_t slope, reciprocal_t over)
     return within ? (uint64_t)(q16 * q16) : (uint64_t)1 << 62;
 }
 
-/* |(dx/du, dx/dv)|, Q16. */
-static inline uint32_t side_q16(const axis_t *axis, int32_t u_half, int64_t w, int64_t w_by_v, reciprocal_t over)
+/* |(dx/du, dx/dv)|^2, Q32, 2^63 at most. */
+static inline uint64_t side_squared(const axis_t *axis, int32_t u_half, int64_t w, int64_t w_by_v, reciprocal_t over)
 {
     const int64_t x = axis->by_u * u_half + axis->at_zero;
     const slope_t slope_by_v = slope_from_numerator((int128_t)axis->by_v * w - (int128_t)x * w_by_v, axis->exponent);
-    return floor_sqrt(square_q32(axis->slope_by_u, over) + square_q32(slope_by_v, over)); /* of 2^63 at most */
+    return square_q32(axis->slope_by_u, over) + square_q32(slope_by_v, over);
 }
 
-static inline footprint_sides_t sides_at(const derivatives_t *row, int32_t u_half)
+enum { AT_ONCE = 8 };
+
+/*
+ * Sides at some pixels of a row, AT_ONCE at most. In steps of one kind for all of them, for each is a long chain of
+ * products: so those of several pixels are on their way at once.
+ */
+static void sides_at(footprint_sides_t *sides, const derivatives_t *row, const int32_t *u_half, int32_t count)
 {
-    const int64_t w = row->w_by_u * u_half + row->w_at_zero;
-    const reciprocal_t over = reciprocal_of(w);
-    return (footprint_sides_t){side_q16(&row->x, u_half, w, row->w_by_v, over),
-                               side_q16(&row->y, u_half, w, row->w_by_v, over)};
+    reciprocal_t over[AT_ONCE];
+    uint64_t width[AT_ONCE], height[AT_ONCE];
+    for (int32_t k = 0; k < count; k++)
+        over[k] = reciprocal_of(row->w_by_u * u_half[k] + row->w_at_zero);
+    for (int32_t k = 0; k < count; k++) {
+        const int64_t w = row->w_by_u * u_half[k] + row->w_at_zero;
+        width[k] = side_squared(&row->x, u_half[k], w, row->w_by_v, over[k]);
+        height[k] = side_squared(&row->y, u_half[k], w, row->w_by_v, over[k]);
+    }
+    for (int32_t k = 0; k < count; k++)
+        sides[k] = (footprint_sides_t){floor_sqrt(width[k]), floor_sqrt(height[k])};
 }
 
 static int32_t rows_from(const grid_t *grid, int32_t first_row, int32_t rows)
@@ -109,8 +122,11 @@ void footprint_blocks(footprint_blocks_t *out, const grid_t *grid, int32_t first
     const derivatives_t derivatives = derivatives_of(grid, middle);
     out->begin = begin >> size_log2;
     out->end = ((end - 1) >> size_log2) + 1;
-    for (int32_t b = out->begin; b < out->end; b++) {
-        const int32_t i = clamp_i32((b << size_log2) + size / 2, row->begin, row->end - 1);
-        out->block[b] = sides_at(&derivatives, 2 * i + 1);
+    for (int32_t b = out->begin; b < out->end; b += AT_ONCE) {
+        const int32_t count = out->end - b < AT_ONCE ? out->end - b : AT_ONCE;
+        int32_t u_half[AT_ONCE];
+        for (int32_t k = 0; k < count; k++)
+            u_half[k] = 2 * clamp_i32(((b + k) << size_log2) + size / 2, row->begin, row->end - 1) + 1;
+        sides_at(&out->block[b], &derivatives, u_half, count);
     }
 }

@@ -13,12 +13,27 @@ typedef struct {
 
 enum { RECIPROCAL_SHIFT = 95 };
 
-/** @param w  1 to 2^60. */
+/**
+ * @param w  1 to 2^60.
+ *
+ * A 64-bit division keeps an A72 for 20 cycles and an A57 for 35. d = n / 2^32 is in [1/2, 1), and y = 4 ((9 - 8 d)^2 +
+ * 24) / 99 within 1/99 of 1 / d (Chebyshev). With e = 1 - d y, y (1 + e + e^2) is within 2^-19. What 2^63 then leaves
+ * of multiples of n, at most 2^44, is as good as divided by it, give or take 1/64: 1/32 is taken off, to err to one
+ * side.
+ */
 static inline reciprocal_t reciprocal_of(int64_t w)
 {
     const int zeros = __builtin_clzll((uint64_t)w);
-    const uint64_t normal = (uint64_t)w << zeros >> 32;
-    return (reciprocal_t){(int64_t)(((uint64_t)1 << 63) / normal), zeros};
+    const uint64_t d_q64 = (uint64_t)w << zeros, n = d_q64 >> 32;
+    const uint64_t s_q29 = ((uint64_t)9 << 29) - n;
+    const uint64_t first_q61 = mul_high(s_q29 * s_q29 + ((uint64_t)24 << 58), ((uint64_t)1 << 63) / 99 << 6);
+    const int64_t e_q61 = (int64_t)(((uint64_t)1 << 61) - mul_high(first_q61, d_q64));
+    const int64_t e_e_q61 = (int64_t)((int128_t)e_q61 * e_q61 >> 61);
+    const int64_t more_q61 = (int64_t)((int128_t)(int64_t)first_q61 * (e_q61 + e_e_q61) >> 61);
+    const int64_t most = ((int64_t)first_q61 + more_q61) >> 30;
+    const int64_t left = (int64_t)(((uint64_t)1 << 63) - (uint64_t)most * n);
+    const int64_t least = most + (((left >> 16) * most - ((int64_t)1 << 42)) >> 47);
+    return (reciprocal_t){least + (((uint64_t)1 << 63) - (uint64_t)least * n >= n), zeros};
 }
 
 /** @return value * reciprocal / 2^shift to nearest, ties up, saturated to +-2^52; |value| < 2^63. */

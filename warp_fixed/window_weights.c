@@ -221,6 +221,13 @@ static uint16_t nearest_side(uint32_t side_q16)
     return (uint16_t)(64u + 32u * (uint32_t)octave + steps);
 }
 
+/* sqrt(w^2 - 1). A function of its own: gcc would put it after the code that goes on with it, and jump back. */
+static __attribute__((noinline)) uint32_t widening_q16(uint32_t width_q16)
+{
+    const uint64_t square = (uint64_t)width_q16 * width_q16, one = (uint64_t)1 << 32;
+    return square > one ? floor_sqrt(square - one) : 0;
+}
+
 window_side_t window_side(warp_resampler_t resampler, uint32_t width_q16)
 {
     if (!warp_averages(resampler))
@@ -231,10 +238,8 @@ window_side_t window_side(warp_resampler_t resampler, uint32_t width_q16)
         width_q16 >>= 3;
         level++;
     }
-    if (resampler != WARP_AREA) {
-        const uint64_t square = (uint64_t)width_q16 * width_q16, one = (uint64_t)1 << 32;
-        width_q16 = square > one ? floor_sqrt(square - one) : 0;
-    }
+    if (resampler != WARP_AREA)
+        width_q16 = widening_q16(width_q16);
     return (window_side_t){nearest_side(width_q16 < largest ? width_q16 : largest), level};
 }
 
