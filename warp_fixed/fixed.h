@@ -104,7 +104,7 @@ static inline uint32_t floor_sqrt(uint64_t x)
 {
     if (x == 0)
         return 0;
-    const int zeros = __builtin_clzll(x) & ~1;
+    const uint64_t zeros = (uint64_t)__builtin_clzll(x) & ~(uint64_t)1;
     const uint64_t v = x << zeros, v_q31 = v >> 33;
     uint64_t y_q62 = ((uint64_t)171 << 56) - 105 * (v_q31 * (((uint64_t)1 << 32) - v_q31) >> 6);
     for (int i = 0; i < 3; i++)
@@ -120,10 +120,10 @@ static inline uint32_t floor_sqrt(uint64_t x)
 static inline int32_t mirror_index(int32_t i, int32_t size)
 {
     const int32_t period = 2 * size;
-    int32_t m = i % period;
-    if (m < 0)
-        m += period;
-    return m < size ? m : period - 1 - m;
+    int32_t m = i < 0 ? -1 - i : i; /* two mirrors: one before the first texel ... */
+    if (m >= period)
+        m %= period;
+    return m < size ? m : period - 1 - m; /* ... and one after the last */
 }
 
 #endif
