@@ -23,11 +23,6 @@ static inline int32x2_t half_of(int64_t x, int64_t y)
     return vrshrn_n_s64(vcombine_s64(vcreate_s64((uint64_t)x), vcreate_s64((uint64_t)y)), 1);
 }
 
-static inline int64_t upper_64(int64_t a, int64_t b)
-{
-    return (int64_t)((int128_t)a * b >> 64);
-}
-
 static inline quadratics_t block_quadratics(const grid_row_cursor_t *row, int32_t begin, int32_t end, int span_log2)
 {
     const int32_t u_half = begin + end; /* the block's middle */

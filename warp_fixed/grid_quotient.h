@@ -13,6 +13,12 @@ typedef struct {
 
 enum { RECIPROCAL_SHIFT = 95 };
 
+/** @return a * b / 2^64, rounded down. */
+static inline int64_t upper_64(int64_t a, int64_t b)
+{
+    return (int64_t)((int128_t)a * b >> 64);
+}
+
 /**
  * @param w  1 to 2^60.
  *
@@ -27,10 +33,9 @@ static inline reciprocal_t reciprocal_of(int64_t w)
     const uint64_t d_q64 = (uint64_t)w << zeros, n = d_q64 >> 32;
     const uint64_t s_q29 = ((uint64_t)9 << 29) - n;
     const uint64_t first_q61 = mul_high(s_q29 * s_q29 + ((uint64_t)24 << 58), ((uint64_t)1 << 63) / 99 << 6);
-    const int64_t e_q61 = (int64_t)(((uint64_t)1 << 61) - mul_high(first_q61, d_q64));
-    const int64_t e_e_q61 = (int64_t)((int128_t)e_q61 * e_q61 >> 61);
-    const int64_t more_q61 = (int64_t)((int128_t)(int64_t)first_q61 * (e_q61 + e_e_q61) >> 61);
-    const int64_t most = ((int64_t)first_q61 + more_q61) >> 30;
+    const int64_t e_q64 = (int64_t)(0 - 8 * mul_high(first_q61, d_q64)); /* modulo 2^64: |e| is far below 1 / 2 */
+    const int64_t more_q64 = e_q64 + upper_64(e_q64, e_q64);
+    const int64_t most = ((int64_t)first_q61 + upper_64((int64_t)first_q61, more_q64)) >> 30;
     const int64_t left = (int64_t)(((uint64_t)1 << 63) - (uint64_t)most * n);
     const int64_t least = most + (((left >> 16) * most - ((int64_t)1 << 42)) >> 47);
     return (reciprocal_t){least + (((uint64_t)1 << 63) - (uint64_t)least * n >= n), zeros};
