@@ -52,6 +52,45 @@ static inline size_t stored_offset(const uint32_t *number)
     return offset;
 }
 
+/** The same of eight numbers of 16 bits. */
+static inline void store_short_numbers(uint16_t to[8], uint16x8_t numbers)
+{
+    vst1q_u16(to, numbers);
+    __asm__("" : "+m"(*(uint16_t(*)[8])to));
+}
+
+static inline size_t stored_short_offset(const uint16_t *number)
+{
+    size_t offset = *number;
+    __asm__("" : "+r"(offset));
+    return offset;
+}
+
+/** @return A stored number that may be negative. */
+static inline ptrdiff_t stored_signed_offset(const uint16_t *number)
+{
+    ptrdiff_t offset = (int16_t)*number;
+    __asm__("" : "+r"(offset));
+    return offset;
+}
+
+/** @return The same address, in a register: gcc would make each load add its parts up anew. */
+static inline const uint8_t *kept_address(const uint8_t *address)
+{
+    __asm__("" : "+r"(address));
+    return address;
+}
+
+/** @return Eight bytes whose lanes are going to be splatted; gcc would load each lane by itself. */
+static inline uint8x8_t load_to_splat(const uint8_t *bytes)
+{
+    uint8x8_t vector = vld1_u8(bytes);
+#ifdef __aarch64__
+    __asm__("" : "+w"(vector));
+#endif
+    return vector;
+}
+
 /** @return Four bytes, at any address; what follows them in the vector is not to be used. */
 static inline uint8x16_t load_word(const uint8_t *bytes)
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A window of gray texels around each point: short windows, with a loop for each number of rows; rows of eight are
 // read.
-#include <stdbool.h>
 #include <string.h>
 
 #include "warp_fixed/kernels_neon.h"
@@ -9,6 +8,7 @@
 #include "warp_fixed/resample_cubic_neon.h"
 #include "warp_fixed/resample_linear_neon.h"
 #include "warp_fixed/resample_long_neon.h"
+#include "warp_fixed/resample_pairs_neon.h"
 #include "warp_fixed/window_texels_neon.h"
 
 /* First-pass weights of one window, a short vector to each row. */
@@ -32,26 +32,22 @@ NEON_INLINE short_splats_t load_short_splats(const uint8_t *first, int32_t ny)
     return splats;
 }
 
-/* Second-pass sums of one pixel, to be added up; negated where weights are negative. Rows of eight texels are read. */
+/* Second-pass sums of one pixel, to be added up. Rows of eight texels are read. */
 NEON_INLINE int32x4_t weigh_gray(const uint8_t *texels, ptrdiff_t stride, const uint8_t *first, int32_t ny,
-                                 const uint8_t *second, bool negative)
+                                 const uint8_t *second)
 {
     const short_splats_t splats = load_short_splats(first, ny);
-    int16x8_t v = products(vld1_u8(texels), splats.row[0], negative);
+    uint16x8_t v = vmull_u8(vld1_u8(texels), splats.row[0]);
     for (int t = 1; t < ny; t++)
-        v = add_products(v, vld1_u8(texels + t * stride), splats.row[t], negative);
-    const int16x8_t weights = vreinterpretq_s16_u8(vld1q_u8(second));
-    if (negative)
-        return vmlal_high_s16(vmull_s16(vget_low_s16(v), vget_low_s16(weights)), v, weights);
-    const uint16x8_t u = vreinterpretq_u16_s16(v), w = vreinterpretq_u16_s16(weights);
-    return vreinterpretq_s32_u32(vmlal_high_u16(vmull_u16(vget_low_u16(u), vget_low_u16(w)), u, w));
+        v = vmlal_u8(v, vld1_u8(texels + t * stride), splats.row[t]);
+    const uint16x8_t w = vreinterpretq_u16_u8(vld1q_u8(second));
+    return vreinterpretq_s32_u32(vmlal_high_u16(vmull_u16(vget_low_u16(v), vget_low_u16(w)), v, w));
 }
 
-NEON_INLINE void patch_gray(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t ny,
-                            bool negative)
+NEON_INLINE void patch_gray(const patch_t *patch, const window_t *window, const window_source_t *source, int32_t ny)
 {
     const window_source_t from = *source; /* what is written might alias these */
-    const ptrdiff_t stride = negative ? COPY_STRIDE : from.stride;
+    const ptrdiff_t stride = from.stride;
     const uint8_t *first = window->y.first_bytes;
     const uint8_t *second = (const uint8_t *)window->x.second;
     const int32_t width = patch->width, height = patch->height;
@@ -62,57 +58,71 @@ NEON_INLINE void patch_gray(const patch_t *patch, const window_t *window, const 
             const window_step_t step = window_step(&from, x_q18, y_q18, 0);
             const int32x4_t a =
                 weigh_gray(from.data + stored_offset(&step.texel[0]), stride, first + stored_offset(&step.row_y[0]), ny,
-                           second + stored_offset(&step.row_x[0]), negative);
+                           second + stored_offset(&step.row_x[0]));
             const int32x4_t b =
                 weigh_gray(from.data + stored_offset(&step.texel[1]), stride, first + stored_offset(&step.row_y[1]), ny,
-                           second + stored_offset(&step.row_x[1]), negative);
+                           second + stored_offset(&step.row_x[1]));
             const int32x4_t c =
                 weigh_gray(from.data + stored_offset(&step.texel[2]), stride, first + stored_offset(&step.row_y[2]), ny,
-                           second + stored_offset(&step.row_x[2]), negative);
+                           second + stored_offset(&step.row_x[2]));
             const int32x4_t d =
                 weigh_gray(from.data + stored_offset(&step.texel[3]), stride, first + stored_offset(&step.row_y[3]), ny,
-                           second + stored_offset(&step.row_x[3]), negative);
+                           second + stored_offset(&step.row_x[3]));
             const int32x4_t four = vpaddq_s32(vpaddq_s32(a, b), vpaddq_s32(c, d));
-            const uint8x8_t pixels = pixels_from_sums(four, four, negative);
+            const uint8x8_t pixels = pixels_from_sums(four, four, false);
             memcpy(out, &pixels, PATCH_STEP);
             out += PATCH_STEP;
         }
     }
 }
 
-NEON_INLINE void rows_gray(const patch_t *patch, const window_t *window, const window_source_t *source, bool negative)
+static void weigh_positive(const patch_t *patch, const window_t *window, const window_source_t *source)
 {
     switch (window->y.taps) {
+    case 1:
+    case WINDOW_MIN_TAPS:
+        patch_gray(patch, window, source, WINDOW_MIN_TAPS);
+        break;
+    case 3:
+        patch_gray(patch, window, source, 3);
+        break;
     case 4:
-        patch_gray(patch, window, source, 4, negative);
+        patch_gray(patch, window, source, 4);
         break;
     case 5:
-        patch_gray(patch, window, source, 5, negative);
+        patch_gray(patch, window, source, 5);
         break;
     case 6:
-        patch_gray(patch, window, source, 6, negative);
+        patch_gray(patch, window, source, 6);
         break;
     case 7:
-        patch_gray(patch, window, source, 7, negative);
+        patch_gray(patch, window, source, 7);
         break;
     default:
-        patch_gray(patch, window, source, WINDOW_SHORT_TAPS, negative);
+        patch_gray(patch, window, source, WINDOW_SHORT_TAPS);
     }
 }
 
-static void positive_gray(const patch_t *patch, const window_t *window, const window_source_t *source)
+static patch_loop_t loop_for(const window_t *window)
 {
-    if (window->y.taps <= WINDOW_MIN_TAPS)
-        patch_gray(patch, window, source, WINDOW_MIN_TAPS, false);
-    else if (window->y.taps == 3)
-        patch_gray(patch, window, source, 3, false);
-    else
-        rows_gray(patch, window, source, false);
-}
-
-static void negative_gray(const patch_t *patch, const window_t *window, const window_source_t *source)
-{
-    rows_gray(patch, window, source, true);
+    if (window->x.resampler != WARP_LINEAR && !window_is_cubic(window) && window->x.negative)
+        return resample_pairs_gray_neon(window);
+    patch_loop_t loop = {
+        .weigh = weigh_positive,
+        .taps_x = WINDOW_SHORT_TAPS,
+        .taps_y = window->y.taps < WINDOW_MIN_TAPS ? WINDOW_MIN_TAPS : window->y.taps,
+        .pixel_bytes = 1,
+        .step = PATCH_STEP,
+    };
+    if (window->x.resampler == WARP_LINEAR) {
+        loop.weigh = resample_linear_gray_neon;
+        loop.taps_x = WINDOW_MIN_TAPS;
+        loop.step = RESAMPLE_LINEAR_STEP;
+        loop.pair_step = 1;
+    } else if (window_is_cubic(window)) {
+        loop.weigh = resample_cubic_gray_neon;
+    }
+    return loop;
 }
 
 void resample_window_gray_neon(const patch_t *patch, const window_t *window)
@@ -122,25 +132,8 @@ void resample_window_gray_neon(const patch_t *patch, const window_t *window)
     } else if (!window_is_short(window)) {
         resample_long_gray_neon(patch, window);
     } else {
-        const bool negative = window->x.negative;
         const texels_t texels = texels_of(&window->picture);
-        patch_loop_t loop = {
-            .weigh = negative ? negative_gray : positive_gray,
-            .taps_x = WINDOW_SHORT_TAPS,
-            .taps_y = window->y.taps < WINDOW_MIN_TAPS ? WINDOW_MIN_TAPS : window->y.taps,
-            .pixel_bytes = 1,
-            .step = PATCH_STEP,
-            .centred = negative,
-        };
-        if (window->x.resampler == WARP_LINEAR) {
-            loop.weigh = resample_linear_gray_neon;
-            loop.taps_x = WINDOW_MIN_TAPS;
-            loop.step = RESAMPLE_LINEAR_STEP;
-            loop.paired = true;
-        } else if (window_is_cubic(window)) {
-            loop.weigh = resample_cubic_gray_neon;
-            loop.centred = false;
-        }
+        const patch_loop_t loop = loop_for(window);
         weigh_anywhere(patch, window, &texels, &loop);
     }
 }

@@ -30,15 +30,15 @@ static inline int32_t copy_vectors(const texels_t *texels, reach_t x)
 static inline bool copy_fits(const texels_t *texels, const patch_loop_t *loop, reach_t x, reach_t y)
 {
     const int32_t bytes = copy_vectors(texels, x) * COPY_VECTOR;
-    return (loop->paired ? 2 * bytes : bytes) <= COPY_STRIDE && y.end - y.begin <= COPY_ROWS;
+    return (loop->pair_step != 0 ? 2 * bytes : bytes) <= COPY_STRIDE && y.end - y.begin <= COPY_ROWS;
 }
 
 /**
  * Make the copy that a loop reads.
  *
  * @param[out] copy  COPY_ROWS * COPY_STRIDE bytes. Texel (x.begin, y.begin) comes first.
- * @param      x, y  Not empty; copy_fits(). For a loop of pairs y has two rows at least, and the last one makes no
- *                   row of the copy.
+ * @param      x, y  Not empty; copy_fits(). For a loop of pairs y has two rows at least, and one that is nowhere
+ *                   the upper one of a pair makes no row of the copy.
  */
 void copy_texels(uint8_t *copy, const texels_t *texels, const patch_loop_t *loop, reach_t x, reach_t y);
 

@@ -175,7 +175,7 @@ static void weigh_pieces(const call_t *call, const patch_t *patch)
     const texels_t *texels = call->texels;
     const reach_t x = columns_of(call, patch), y = rows_of(call, patch);
     const bool inside = reach_is_inside(x, texels->width) && reach_is_inside(y, texels->height);
-    const bool copied = call->loop->centred || call->loop->paired;
+    const bool copied = call->loop->centred || call->loop->pair_step != 0;
     if (inside && copied) {
         weigh_copies(call, patch, x, y);
     } else if (inside) {

@@ -3,7 +3,9 @@
 //
 // Loops with negative weights read copies only, whose bytes are less 128, as signed ones: the copy costs some two
 // instructions a pixel, and saves one for each vector of texels and the addresses of all rows but the first. Linear
-// interpolation of gray pixels reads copies too, of pairs (resample_linear_neon.c).
+// interpolation of gray pixels reads copies too, of pairs (resample_linear_neon.c). In these a row has its bytes and
+// those of the next one in turn. Each row begins a pair; or every other one, for windows of an odd number of rows that
+// read one more, be it the one before.
 #ifndef WARP_FIXED_WINDOW_PATCH_NEON_H
 #define WARP_FIXED_WINDOW_PATCH_NEON_H
 
@@ -24,7 +26,7 @@ enum {
 typedef struct {
     const uint8_t *data;
     int32_t width, height;
-    ptrdiff_t stride; /**< bytes from row to row; height times it fits 31 bits */
+    ptrdiff_t stride;    /**< bytes from row to row; height times it fits 31 bits */
     int32_t texel_bytes; /**< 1, 2, 4 or 8 */
 } texels_t;
 
@@ -52,8 +54,8 @@ typedef struct {
     int32_t pixel_bytes;    /**< that it writes for a pixel */
     int32_t step;           /**< pixels that it makes at once; PATCH_MAX_STEP at most */
     bool centred;           /**< it reads bytes less 128, and a source's stride is COPY_STRIDE */
-    bool paired;            /**< a texel is a byte, followed by the one below, twice as far from its row's begin as in
-                                 a picture; rows have COPY_STRIDE bytes, and so less than 512 texels */
+    int32_t pair_step;      /**< 0, or it reads pairs: of each row and the next (1), or of every other one (2), at
+                                 floor(row / pair_step) COPY_STRIDE; texels are twice as long, and less than 512 */
 } patch_loop_t;
 
 /** @return Is it at most WINDOW_SHORT_TAPS long along both axes, and so at level 0? */

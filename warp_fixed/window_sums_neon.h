@@ -39,10 +39,37 @@ static inline int32x4_t window_sums_chroma(const int16_t *v, const int16_t *seco
     return sums;
 }
 
+/** @return The first four numbers, each twice. On an A72 zip of long vectors takes three micro-operations, trn one. */
+static inline int16x8_t twice_low(int16x8_t a)
+{
+#ifdef __aarch64__
+    const int16x8_t wide = vreinterpretq_s16_s32(vmovl_s16(vget_low_s16(a)));
+    return vtrn1q_s16(wide, wide);
+#else
+    return vzip1q_s16(a, a);
+#endif
+}
+
+/** @return The last four. */
+static inline int16x8_t twice_high(int16x8_t a)
+{
+#ifdef __aarch64__
+    const int16x8_t wide = vreinterpretq_s16_s32(vmovl_high_s16(a));
+    return vtrn1q_s16(wide, wide);
+#else
+    return vzip2q_s16(a, a);
+#endif
+}
+
 /** @return U, V of two pixels, from sums of even and of odd texels of each. */
 static inline int32x4_t chroma_from_sums(int32x4_t a, int32x4_t b)
 {
+#ifdef __aarch64__ /* as above: no zip */
+    const uint32x4_t in_a = vreinterpretq_u32_u64(vcombine_u64(vdup_n_u64(UINT64_MAX), vdup_n_u64(0)));
+    return vaddq_s32(vbslq_s32(in_a, a, b), vextq_s32(a, b, 2));
+#else
     return vaddq_s32(vcombine_s32(vget_low_s32(a), vget_low_s32(b)), vcombine_s32(vget_high_s32(a), vget_high_s32(b)));
+#endif
 }
 
 #endif

@@ -185,6 +185,15 @@ static void fill_bytes(window_weights_t *weights, uint32_t count)
         }
 }
 
+/* @return What follows a row of zeros. */
+static uint32_t skip_zeros(window_weights_t *weights, uint32_t at)
+{
+    const uint32_t end = at + WINDOW_SHORT_TAPS;
+    for (; at < end; at++)
+        weights->first[at] = weights->second[at] = 0;
+    return end;
+}
+
 void window_weights_init(window_weights_t *weights, warp_resampler_t resampler, bool of_coefficients)
 {
     const kernel_t *kernel = kernel_of(resampler);
@@ -202,6 +211,8 @@ void window_weights_init(window_weights_t *weights, warp_resampler_t resampler, 
         weights->taps[side] = (uint8_t)taps;
         weights->at[side] = at;
         at += (uint32_t)row_of(taps) * PHASES;
+        if (side == 0)
+            at = skip_zeros(weights, at);
         in_bytes = is_short(taps) ? at : in_bytes; /* short sides come first */
         for (int32_t row = 0; row < PHASES; row++)
             fill_row(weights, kernel, side, row);

@@ -25,7 +25,8 @@ enum {
     WINDOW_SHORT_TAPS = 8,    /**< up to here the first pass has 8-bit weights */
     WINDOW_ROW_SLACK = 8,     /**< weights from the begin of a row that vector code may load, if there are fewer */
     WINDOW_SHORT_SIDES = 153, /**< sides with short windows, of the narrowest kernel, half width 1/2 */
-    WINDOW_POOL = 4488 * PHASES + WINDOW_ROW_SLACK /**< weights of all sides of the widest kernel, half width 2 */
+    /** Weights of all sides of the widest kernel, half width 2; there are zeros after those of side 0. */
+    WINDOW_POOL = 4488 * PHASES + WINDOW_SHORT_TAPS + WINDOW_ROW_SLACK
 };
 
 /** Weights along one axis for one side: PHASES rows of each table. */
@@ -36,7 +37,8 @@ typedef struct {
     const int16_t *first;
     const int16_t *second;      /**< sum SECOND_SUM, SECOND_SUM_POSITIVE, of coefficients 1 << COEFFICIENT_SUM_LOG2 */
     const uint8_t *first_bytes; /**< as `first`, negated where `negative`; of short windows of texels alone. Where four
-                                   taps are `negative`, their absolute values follow: outer ones are not positive */
+                                   taps are `negative`, their absolute values follow: outer ones are not positive.
+                                   Where taps are an odd number, the byte before a row is 0 */
     int32_t taps;               /**< 1 to WINDOW_MAX_TAPS */
     int32_t row;                /**< entries from row to row: taps, or WINDOW_SHORT_TAPS with zeros where these do */
     int32_t lead;               /**< 1/128 px: 1 - h - s/2 */
@@ -54,7 +56,7 @@ typedef struct {
     uint8_t taps[WINDOW_SIDES];
     int16_t first[WINDOW_POOL];
     int16_t second[WINDOW_POOL];
-    uint8_t first_bytes[WINDOW_SHORT_SIDES * PHASES * WINDOW_SHORT_TAPS];
+    uint8_t first_bytes[(WINDOW_SHORT_SIDES * PHASES + 1) * WINDOW_SHORT_TAPS];
 } window_weights_t;
 
 /** Which entry of the table serves a footprint's side, and from which level of the picture. */

@@ -259,6 +259,23 @@ static void color_is_gray(void **state)
 }
 
 /* The side chosen for a footprint is the table's nearest; mean+cubic takes sqrt(w^2 - 1); large ones use levels. */
+/* resample_pairs_neon.c reads it as the weight of the row before the window. */
+static void zeros_are_before_weights_of_odd_numbers_of_taps(void **state)
+{
+    (void)state;
+    int32_t sides = 0;
+    window_weights_init(&weights, WARP_MEAN_CUBIC, false);
+    for (uint16_t side = 0; side < WINDOW_SIDES; side++) {
+        const window_axis_t axis = window_axis(&weights, side);
+        if (axis.taps % 2 == 0 || axis.taps > WINDOW_SHORT_TAPS)
+            continue;
+        sides++;
+        for (int row = 0; row < PHASES; row++)
+            assert_int_equal(axis.first_bytes[row * WINDOW_SHORT_TAPS - 1], 0);
+    }
+    assert_true(sides > 60);
+}
+
 static void sides_follow_footprints(void **state)
 {
     (void)state;
@@ -293,9 +310,12 @@ int main(void)
 {
     prefilter_init(&prefilter);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(weights_sum_exactly_and_fit),      cmocka_unit_test(methods_keep_their_definition),
-        cmocka_unit_test(constants_and_identity_are_exact), cmocka_unit_test(color_is_gray),
+        cmocka_unit_test(weights_sum_exactly_and_fit),
+        cmocka_unit_test(methods_keep_their_definition),
+        cmocka_unit_test(constants_and_identity_are_exact),
+        cmocka_unit_test(color_is_gray),
         cmocka_unit_test(sides_follow_footprints),
+        cmocka_unit_test(zeros_are_before_weights_of_odd_numbers_of_taps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -39,22 +39,38 @@ static uint32_t hash_texel(uint32_t hash, const uint8_t *texel, int32_t bytes, u
     return hash;
 }
 
-/* A texel of a source. Of pairs, a window's last row is read from beside the one above. */
-static const uint8_t *texel_at(const bench_t *bench, const window_source_t *source, int32_t u, int32_t v, bool last)
+/* Where every other row begins a pair, a window has one row less than is read. */
+static int32_t window_rows(const bench_t *bench)
 {
-    const int32_t bytes = bench->texels.texel_bytes;
-    if (!bench->loop.paired)
-        return source->data + v * source->stride + u * bytes;
-    return source->data + (last ? v - 1 : v) * source->stride + 2 * u + (last ? 1 : 0);
+    return bench->loop.taps_y - (bench->loop.pair_step == 2);
+}
+
+/*
+ * The texel of column u and of a row of the window that begins at y. Of pairs, in which texels' bytes are every other
+ * one, windows read two rows at a time, and their last one from beside the one above.
+ */
+static uint32_t hash_from_source(uint32_t hash, const bench_t *bench, const window_source_t *source,
+                                 const int32_t at[2], int32_t row)
+{
+    const int32_t bytes = bench->texels.texel_bytes, step = bench->loop.pair_step, y = at[1] + row;
+    uint8_t texel[8];
+    if (step == 0)
+        return hash_texel(hash, source->data + y * source->stride + at[0] * bytes, bytes, 0);
+    assert_in_range(at[0], 0, 511);
+    assert_in_range(y, 0, 511);
+    const bool below = step == 1 ? row % 2 != 0 || row == bench->loop.taps_y - 1 : y % 2 != 0;
+    const uint8_t *pair = source->data + (below ? y - 1 : y) / step * source->stride + 2 * at[0] * bytes + below;
+    for (int32_t i = 0; i < bytes; i++)
+        texel[i] = pair[2 * i];
+    return hash_texel(hash, texel, bytes, 0);
 }
 
 static void hash_windows(const patch_t *patch, const window_t *window, const window_source_t *source)
 {
     const bench_t *bench = (const bench_t *)window;
-    const int32_t bytes = bench->texels.texel_bytes;
     assert_true(patch->width > 0 && patch->width % bench->loop.step == 0 && patch->width <= PATCH_MAX_WIDTH);
     assert_true(patch->height > 0 && patch->height <= PATCH_MAX_HEIGHT);
-    assert_true(!(bench->loop.centred || bench->loop.paired) || source->stride == COPY_STRIDE);
+    assert_true(!(bench->loop.centred || bench->loop.pair_step != 0) || source->stride == COPY_STRIDE);
     bench->tally->calls++;
     bench->tally->pixels += patch->width * patch->height;
     bench->tally->in_place += source->data == bench->texels.data;
@@ -63,9 +79,9 @@ static void hash_windows(const patch_t *patch, const window_t *window, const win
             const int32_t x = (patch->x_q18[r * PATCH_MAX_WIDTH + k] + source->x_start_q18) >> GRID_FRACTION_BITS;
             const int32_t y = (patch->y_q18[r * PATCH_MAX_WIDTH + k] + source->y_start_q18) >> GRID_FRACTION_BITS;
             uint32_t hash = 0;
-            for (int32_t v = y; v < y + bench->loop.taps_y; v++)
+            for (int32_t v = 0; v < window_rows(bench); v++)
                 for (int32_t u = x; u < x + bench->loop.taps_x; u++)
-                    hash = hash_texel(hash, texel_at(bench, source, u, v, v == y + bench->loop.taps_y - 1), bytes, 0);
+                    hash = hash_from_source(hash, bench, source, (const int32_t[2]){u, y}, v);
             memcpy(patch->out + r * patch->stride + k * HASH_BYTES, &hash, HASH_BYTES);
         }
     }
@@ -79,7 +95,7 @@ static uint32_t expected_hash(const bench_t *bench, int32_t x_q18, int32_t y_q18
     const int32_t x = window_place(&bench->window.x, x_q18, texels->width, 0).begin;
     const int32_t y = window_place(&bench->window.y, y_q18, texels->height, 0).begin;
     uint32_t hash = 0;
-    for (int32_t v = y; v < y + bench->loop.taps_y; v++) {
+    for (int32_t v = y; v < y + window_rows(bench); v++) {
         const uint8_t *row = texels->data + mirror_index(v, texels->height) * texels->stride;
         for (int32_t u = x; u < x + bench->loop.taps_x; u++)
             hash = hash_texel(hash, row + mirror_index(u, texels->width) * bytes, bytes, bench->loop.centred ? 128 : 0);
@@ -91,8 +107,8 @@ static uint32_t expected_hash(const bench_t *bench, int32_t x_q18, int32_t y_q18
 static bench_t new_bench(int32_t width, int32_t height, tally_t *tally, rng_t *rng)
 {
     static const int32_t bytes_of[4] = {1, 2, 4, 8};
-    const bool centred = rng_int(rng, 0, 1), paired = !centred && rng_int(rng, 0, 1);
-    const int32_t bytes = paired ? 1 : bytes_of[rng_int(rng, 0, 3)],
+    const bool centred = rng_int(rng, 0, 1), paired = rng_int(rng, 0, 1);
+    const int32_t bytes = bytes_of[rng_int(rng, 0, paired ? 1 : 3)],
                   stride = width * bytes + (int32_t)rng_int(rng, 0, 9);
     const size_t size = (size_t)(stride * (height - 1) + width * bytes);
     uint8_t *data = malloc(size);
@@ -107,7 +123,7 @@ static bench_t new_bench(int32_t width, int32_t height, tally_t *tally, rng_t *r
                  .pixel_bytes = HASH_BYTES,
                  .step = rng_int(rng, 0, 1) ? PATCH_STEP : PATCH_MAX_STEP,
                  .centred = centred,
-                 .paired = paired},
+                 .pair_step = paired ? (int32_t)rng_int(rng, 1, centred ? 2 : 1) : 0},
         .tally = tally,
     };
     bench.window.x = (window_axis_t){.first = no_weights, .second = no_weights};
@@ -154,10 +170,10 @@ static tally_t check_patch(bench_t *bench, const pose_of_patch_t *pose)
     weigh_anywhere(&patch, &bench->window, &bench->texels, &bench->loop);
     if (memcmp(found, expected, size) != 0)
         fail_msg("picture %d x %d of %d bytes a texel, patch %d x %d about (%.3f, %.3f), scale %.3f, turn %.3f, "
-                 "taps %d x %d, step %d, centred %d, paired %d",
+                 "taps %d x %d, step %d, centred %d, pair step %d",
                  bench->texels.width, bench->texels.height, bench->texels.texel_bytes, pose->width, pose->height,
                  pose->x, pose->y, pose->scale, pose->turn, bench->loop.taps_x, bench->loop.taps_y, bench->loop.step,
-                 bench->loop.centred, bench->loop.paired);
+                 bench->loop.centred, bench->loop.pair_step);
     free(found);
     free(expected);
     return *bench->tally;
@@ -201,7 +217,7 @@ static void patches_inside_are_read_in_place(void **state)
         const tally_t found = check_patch(&bench, &(pose_of_patch_t){64, 16, 100, 60, 1, 0});
         assert_int_equal(found.calls, 1);
         assert_int_equal(found.pixels, 64 * 16);
-        assert_int_equal(found.in_place, !bench.loop.centred && !bench.loop.paired);
+        assert_int_equal(found.in_place, !bench.loop.centred && bench.loop.pair_step == 0);
         free_bench(&bench);
     }
 }
@@ -230,7 +246,7 @@ static void patches_that_read_more_than_a_copy_are_halved(void **state)
         rng_t rng = {i};
         bench_t bench = new_bench(600, 400, &tally, &rng);
         while (bench.texels.texel_bytes != cases[i].texel_bytes || bench.loop.taps_x < 7 ||
-               bench.loop.paired != cases[i].paired || bench.loop.centred == cases[i].paired) {
+               (bench.loop.pair_step != 0) != cases[i].paired || !(bench.loop.centred || cases[i].paired)) {
             free_bench(&bench);
             bench = new_bench(600, 400, &tally, &rng);
         }
@@ -247,9 +263,9 @@ static void patches_that_fill_a_copy_are_right(void **state)
     rng_t rng = {1};
     for (int32_t n = 0; n < 400; n++) {
         bench_t bench = new_bench(420, 200, &tally, &rng);
-        const double bytes = rng_double(&rng, 760, 860) / (bench.loop.paired ? 2 : 1);
-        const pose_of_patch_t pose = {64, bench.loop.paired ? 8 : 16, 210, 100, bytes / bench.texels.texel_bytes / 64,
-                                      0};
+        const double bytes = rng_double(&rng, 760, 860) / (bench.loop.pair_step != 0 ? 2 : 1);
+        const pose_of_patch_t pose = {64,  bench.loop.pair_step != 0 ? 8 : 16,    210,
+                                      100, bytes / bench.texels.texel_bytes / 64, 0};
         (void)check_patch(&bench, &pose);
         free_bench(&bench);
     }
