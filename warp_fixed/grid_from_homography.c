@@ -55,25 +55,22 @@ static int64_t floor_div(int64_t a, int64_t b)
     return quotient - (a % b != 0 && (a < 0) != (b < 0));
 }
 
-/* Narrow [*first, *last] (half pixels) to where edge >= 0 on the row v_half. */
+/* Narrow [*first, *last] (half pixels, not empty) to where edge >= 0 on the row v_half. Most edges need no division. */
 static void clip_half_pixels(int64_t *first, int64_t *last, const grid_linear_t *edge, int32_t v_half)
 {
     const int64_t at_zero = edge->v * v_half + edge->c;
-    if (edge->u > 0) {
-        const int64_t least = -floor_div(at_zero, edge->u);
-        *first = least > *first ? least : *first;
-    } else if (edge->u < 0) {
-        const int64_t most = floor_div(at_zero, -edge->u);
-        *last = most < *last ? most : *last;
-    } else if (at_zero < 0) {
+    if (edge->u > 0 && at_zero + edge->u * *first < 0)
+        *first = -floor_div(at_zero, edge->u);
+    else if (edge->u < 0 && at_zero + edge->u * *last < 0)
+        *last = floor_div(at_zero, -edge->u);
+    else if (edge->u == 0 && at_zero < 0)
         *last = -1;
-    }
 }
 
 static grid_row_t lit_row(const grid_t *grid, const grid_linear_t edge[5], int32_t j)
 {
     int64_t first = 1, last = 2 * (int64_t)grid->panel_width - 1; /* half pixels; centres are odd */
-    for (int e = 0; e < 5; e++)
+    for (int e = 0; e < 5 && first <= last; e++)
         clip_half_pixels(&first, &last, &edge[e], 2 * j + 1);
     if (first > last)
         return (grid_row_t){0, 0, 0, false};
