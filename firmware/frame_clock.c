@@ -97,7 +97,7 @@ static bool is_better(const frame_clock_t *clock, const can_frame_clock_t *heard
         return false;
     if (!same_epoch(epoch, &clock->now))
         return heard->node < clock->leader; /* two have begun at once */
-    if (is_silent(clock, now_us))
+    if (clock->leader == 0 || is_silent(clock, now_us))
         return true;
     return heard->changes == clock->next.any ? heard->node < clock->leader : heard->changes;
 }
@@ -148,14 +148,6 @@ can_check_t frame_clock_hear(frame_clock_t *clock, const hal_can_frame_t *frame,
     follow(clock, heard.node);
     obey(clock, &epoch, &heard, now_us);
     return CAN_CHECK_OK;
-}
-
-void frame_clock_lost_bus(frame_clock_t *clock, int64_t now_us)
-{
-    clock->leading = false;
-    clock->leader = 0;
-    clock->proven = false;
-    clock->quiet_since_us = now_us;
 }
 
 /* Lead from now on; with the epoch that is known, or the first one. */
@@ -277,19 +269,28 @@ static frame_step_t find_step(frame_clock_t *clock, const frame_blank_t *blank)
     };
 }
 
-/* Does nothing that this leader says get out? */
+/* Does nothing of what this leader says get out? Then somebody else may lead by now. */
 static bool is_unheard(const frame_clock_t *clock, int64_t now_us)
 {
-    return !clock->proven && now_us - clock->led_since_us >= FRAME_CLOCK_PROOF_US;
+    const int64_t heard_us = clock->own_us > clock->led_since_us ? clock->own_us : clock->led_since_us;
+    return now_us - heard_us >= FRAME_CLOCK_SILENT_US;
+}
+
+static void cease_to_lead(frame_clock_t *clock, int64_t now_us)
+{
+    clock->leading = false;
+    clock->leader = 0;
+    clock->next.any = false;
+    clock->quiet_since_us = now_us;
 }
 
 frame_step_t frame_clock_step(frame_clock_t *clock, hal_can_t *can, const frame_blank_t *blank)
 {
     clock->proven = is_proven(clock, blank->now_us);
     const int64_t patience_us = FRAME_CLOCK_SILENT_US + (int64_t)clock->node * FRAME_CLOCK_TURN_US;
-    if (!blank->bus_time_known || (clock->leading && is_unheard(clock, blank->now_us)))
-        frame_clock_lost_bus(clock, blank->now_us);
-    else if (!clock->leading && blank->now_us - clock->quiet_since_us >= patience_us)
+    if (clock->leading && (!blank->bus_time_known || is_unheard(clock, blank->now_us)))
+        cease_to_lead(clock, blank->now_us);
+    else if (!clock->leading && blank->bus_time_known && blank->now_us - clock->quiet_since_us >= patience_us)
         begin_to_lead(clock, blank);
     frame_step_t step = find_step(clock, blank);
     if (clock->leading) {
@@ -297,6 +298,7 @@ frame_step_t frame_clock_step(frame_clock_t *clock, hal_can_t *can, const frame_
         announce(clock, can, step.number, blank->now_us);
     }
     const int32_t quarter_us = frame_rate_period_us(clock->rate) / 4;
-    step.in_step = clock->now.any && clock->proven && step.off_us < quarter_us && step.off_us > -quarter_us;
+    step.in_step = clock->now.any && clock->proven && blank->bus_time_known && step.off_us < quarter_us &&
+                   step.off_us > -quarter_us;
     return step;
 }

@@ -106,9 +106,6 @@ void frame_clock_init(frame_clock_t *clock, uint8_t node, frame_rate_t rate, int
  */
 can_check_t frame_clock_hear(frame_clock_t *clock, const hal_can_frame_t *frame, int64_t now_us, int64_t now_bus_us);
 
-/** The controller was bus-off: others may have gone on, so listen first. */
-void frame_clock_lost_bus(frame_clock_t *clock, int64_t now_us);
-
 /** Number this refresh; lead, announce and begin epochs when it is this board's turn. Call it once a blank. */
 frame_step_t frame_clock_step(frame_clock_t *clock, hal_can_t *can, const frame_blank_t *blank);
 

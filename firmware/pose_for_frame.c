@@ -38,19 +38,17 @@ static bool drawn_at(pose_at_t *drawn, const pose_history_t *history, int64_t ti
     return true;
 }
 
-/* Of the poses with the tag's counter the one nearest to where the render latency leads. @return false if none has. */
-static bool drawn_with_tag(pose_at_t *drawn, const pose_history_t *history, uint8_t tag, int64_t time_us)
+/* The newest pose that was captured when the tag says. @return false if none was. */
+static bool drawn_with_tag(pose_at_t *drawn, const pose_history_t *history, const pose_for_frame_picture_t *picture)
 {
-    int64_t nearest_us = INT64_MAX;
     for (int32_t back = 0; back < history->count; back++) {
         const pose_at_t *pose = pose_history_back(history, back);
-        const int64_t away_us = pose->time_us < time_us ? time_us - pose->time_us : pose->time_us - time_us;
-        if (pose->counter == tag && away_us < nearest_us) {
-            nearest_us = away_us;
+        if (frame_tag_is_of(&picture->tag, picture->tag.viewer, (uint64_t)pose->time_us, picture->wrap_us)) {
             *drawn = *pose;
+            return true;
         }
     }
-    return nearest_us != INT64_MAX;
+    return false;
 }
 
 static bool find_drawn(pose_at_t *drawn, const pose_history_t *history, const pose_for_frame_rule_t *rule,
@@ -61,7 +59,7 @@ static bool find_drawn(pose_at_t *drawn, const pose_history_t *history, const po
         return true;
     }
     const int64_t time_us = picture->picture_us - rule->render_us;
-    if (rule->mode == POSE_FOR_FRAME_TAG && picture->tagged && drawn_with_tag(drawn, history, picture->tag, time_us))
+    if (rule->mode == POSE_FOR_FRAME_TAG && picture->tagged && drawn_with_tag(drawn, history, picture))
         return true;
     return drawn_at(drawn, history, time_us) && rule->mode == POSE_FOR_FRAME_DELAY;
 }

@@ -7,6 +7,7 @@
 #ifndef FIRMWARE_POSE_FOR_FRAME_H
 #define FIRMWARE_POSE_FOR_FRAME_H
 
+#include "firmware/frame_tag.h"
 #include "firmware/pose_history.h"
 #include "firmware/pose_predict.h"
 
@@ -15,7 +16,7 @@ typedef enum {
     POSE_FOR_FRAME_LATEST = 0, /**< the newest; right only for an engine without latency, or a picture nailed to the
                                     head */
     POSE_FOR_FRAME_DELAY,      /**< the one of a known time before the picture came */
-    POSE_FOR_FRAME_TAG         /**< the picture says its number */
+    POSE_FOR_FRAME_TAG         /**< the picture says when the pose was captured */
 } pose_for_frame_mode_t;
 
 /** Where the drawn world is, as far as moving the eye is concerned. */
@@ -31,7 +32,7 @@ typedef struct {
     pose_for_frame_content_t content;
     int64_t depth_um;  /**< for POSE_FOR_FRAME_DEPTH: > 0, < 2^40 */
     int64_t render_us; /**< from the capture of a pose to the arrival of the picture that was drawn with it, 0 to 10^6.
-                            With tags, it tells apart poses with the same counter, and stands in for a lost tag */
+                            With tags, it stands in for a lost one */
 } pose_for_frame_rule_t;
 
 /** One picture. All times on the clock of the pose history. */
@@ -39,7 +40,8 @@ typedef struct {
     int64_t picture_us; /**< when it arrived */
     int64_t shown_us;   /**< when it will be shown: half a frame after the vertical blank is the middle of the panel */
     bool tagged;        /**< it has a tag that could be read; */
-    uint8_t tag;        /**< the counter of the pose that it was drawn with */
+    frame_tag_t tag;    /**< which has the capture time of the pose that it was drawn with */
+    uint64_t wrap_us;   /**< of that time: CAN_POSE_FD_WRAP_US or CAN_POSE_SET_WRAP_US */
 } pose_for_frame_picture_t;
 
 /** What to map the picture with. */

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Collects, checks and counts the pose messages of one viewer, and hands on those of bus time.
+// Collects, checks and counts the pose messages of one viewer.
 #include "firmware/pose_from_can.h"
 
 #include <string.h>
 
 static const int64_t FARTHEST_NM = INT64_C(1000000000000);
 
-static void count_check(can_faults_t *faults, can_check_t check)
+void can_faults_count(can_faults_t *faults, can_check_t check)
 {
     switch (check) {
     case CAN_CHECK_LENGTH:
@@ -83,6 +83,17 @@ static void take_capture_time(can_poses_t *poses, const bus_master_t *time, uint
     poses->captured_us = bus_time_to_local(&time->time, capture_bus_us);
 }
 
+static void remember(can_poses_t *poses, const bus_master_t *time, int counters)
+{
+    const bool fd = counters == CAN_E2E_P05_COUNTERS;
+    poses->counters = counters;
+    take_capture_time(poses, time, fd ? CAN_POSE_FD_WRAP_US : CAN_POSE_SET_WRAP_US);
+    int64_t time_us = poses->received_us;
+    if (time != NULL)
+        time_us = poses->captured ? poses->capture_bus_us : bus_time_from_local(&time->time, poses->received_us);
+    (void)pose_history_add(&poses->history, &poses->newest, time_us);
+}
+
 /* @return Was it taken? */
 static bool take_pose(can_poses_t *poses, const can_pose_t *pose, int64_t time_us, can_faults_t *faults)
 {
@@ -105,10 +116,10 @@ static bool take_fd(can_poses_t *poses, const bus_master_t *time, const hal_can_
 {
     can_pose_t pose;
     const can_check_t check = can_pose_fd_decode(&pose, frame, poses->viewer);
-    count_check(faults, check);
+    can_faults_count(faults, check);
     if (check == CAN_CHECK_OK && carries_on(&poses->fd, pose.counter, CAN_E2E_P05_COUNTERS, frame->time_us, faults) &&
         take_pose(poses, &pose, frame->time_us, faults))
-        take_capture_time(poses, time, CAN_POSE_FD_WRAP_US);
+        remember(poses, time, CAN_E2E_P05_COUNTERS);
     return check != CAN_CHECK_OTHER;
 }
 
@@ -124,9 +135,9 @@ static void complete_set(can_poses_t *poses, const bus_master_t *time, int64_t t
     can_pose_t pose;
     const can_check_t check = can_pose_set_decode(&pose, poses->part, poses->viewer);
     poses->collecting = false;
-    count_check(faults, check);
+    can_faults_count(faults, check);
     if (check == CAN_CHECK_OK && take_pose(poses, &pose, time_us, faults))
-        take_capture_time(poses, time, CAN_POSE_SET_WRAP_US);
+        remember(poses, time, CAN_E2E_P01_COUNTERS);
 }
 
 /* @return Was it a part of this viewer's sets, good or bad? */
@@ -135,7 +146,7 @@ static bool take_part(can_poses_t *poses, const bus_master_t *time, const hal_ca
     int part = 0;
     uint8_t counter = 0;
     const can_check_t check = can_pose_part_check(frame, poses->viewer, &part, &counter);
-    count_check(faults, check);
+    can_faults_count(faults, check);
     if (check != CAN_CHECK_OK)
         return check != CAN_CHECK_OTHER;
 
@@ -161,38 +172,9 @@ static bool take_part(can_poses_t *poses, const bus_master_t *time, const hal_ca
     return true;
 }
 
-static void leave_bus_off(hal_can_t *can, can_faults_t *faults)
+bool pose_from_frame(can_poses_t *poses, const bus_master_t *time, const hal_can_frame_t *frame, can_faults_t *faults)
 {
-    if (hal_can_state(can) != HAL_CAN_BUS_OFF)
-        return;
-    faults->bus_off++;
-    if (hal_can_restart(can) != HAL_OK)
-        faults->io++;
-}
-
-bool pose_from_frame(can_poses_t *poses, const hal_can_frame_t *frame, can_faults_t *faults)
-{
-    return take_fd(poses, NULL, frame, faults) || take_part(poses, NULL, frame, faults);
-}
-
-void pose_from_can(can_poses_t *poses, bus_master_t *time, hal_can_t *can, can_faults_t *faults)
-{
-    leave_bus_off(can, faults);
-    for (int i = 0; i < POSE_FROM_CAN_FRAMES; i++) {
-        hal_can_frame_t frame;
-        const hal_status_t status = hal_can_receive(can, &frame);
-        if (status == HAL_EMPTY)
-            return;
-        if (status != HAL_OK) {
-            faults->io++;
-            return;
-        }
-        const can_check_t check = time == NULL ? CAN_CHECK_OTHER : bus_master_hear(time, &frame);
-        count_check(faults, check);
-        if (check == CAN_CHECK_OTHER && !take_fd(poses, time, &frame, faults))
-            (void)take_part(poses, time, &frame, faults);
-    }
-    faults->overrun++;
+    return take_fd(poses, time, frame, faults) || take_part(poses, time, frame, faults);
 }
 
 uint32_t can_faults_total(const can_faults_t *faults)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// CAN frames -> the newest checked pose of one viewer, and bus time.
+// CAN frames -> the checked poses of one viewer.
 #ifndef FIRMWARE_POSE_FROM_CAN_H
 #define FIRMWARE_POSE_FROM_CAN_H
 
@@ -8,6 +8,7 @@
 
 #include "firmware/bus_master.h"
 #include "firmware/can_protocol.h"
+#include "firmware/pose_history.h"
 #include "hal/hal_can.h"
 
 enum {
@@ -16,8 +17,6 @@ enum {
     POSE_FROM_CAN_SET_US = 10000,
     /** After this long without a frame the sender's counter is taken as it comes. */
     POSE_FROM_CAN_SILENCE_US = 200000,
-    /** Frames taken per call at most. */
-    POSE_FROM_CAN_FRAMES = 256,
     /** A capture time is believed when it is at most so much before the pose was received, or after it: the wrapped one
      *  of a set says no more, and more than that would be of no use. */
     POSE_FROM_CAN_OLDEST_US = 1000000,
@@ -38,7 +37,7 @@ typedef struct {
         bad_pose; /**< unknown quality or origin, position beyond 1000 m, quaternion not within 1 % of unit length */
     uint32_t tracking_lost; /**< good frames in which the tracker says that it has lost the viewer */
     uint32_t io;            /**< failures of the CAN driver */
-    uint32_t overrun;       /**< calls that took POSE_FROM_CAN_FRAMES: the controller may have dropped some */
+    uint32_t overrun;       /**< calls that took BUS_RECEIVE_FRAMES: the controller may have dropped some */
     uint32_t bus_off;       /**< calls that found the controller bus-off; each orders a restart */
 } can_faults_t;
 
@@ -58,6 +57,9 @@ typedef struct {
     bool captured;          /**< its capture time is known: */
     int64_t capture_bus_us; /**< in bus time, unwrapped, */
     int64_t captured_us;    /**< and on hal_time's clock; else both are 0 */
+    int counters;           /**< of its kind of message: counters go from 0 to one less */
+    pose_history_t
+        history; /**< the last second of them: when captured, or else received, in bus time as it was known */
 
     can_sequence_t fd, set;               /**< the receiver's own from here on */
     hal_can_frame_t part[CAN_POSE_PARTS]; /**< of the set being collected */
@@ -67,29 +69,23 @@ typedef struct {
 } can_poses_t;
 
 /**
- * Take what the controller has received, oldest first, at most POSE_FROM_CAN_FRAMES frames, and keep the newest good
- * pose. Never blocks.
+ * Take one frame from the bus.
  *
  * The pose of an FD frame counts at once; a classic set counts when its three frames are here, in any order, all with
  * one counter and within POSE_FROM_CAN_SET_US; a frame of a newer set ends the collecting of an older one. Anything
- * wrong is counted and changes nothing else. Frames that are neither this viewer's poses nor of bus time are taken and
- * ignored. A controller found bus-off is told to restart.
+ * wrong is counted and changes nothing else.
  *
  * A pose's capture time is known when bus time is, began on a tracker's clock, and puts it not long before now.
  *
  * @param[in,out] poses   The receiver.
- * @param[in,out] time    Hears Sync and FollowUp; NULL: they are ignored.
- * @param         can     An open controller.
+ * @param         time    Bus time; NULL: there is none.
  * @param[in,out] faults  Counted up.
- */
-void pose_from_can(can_poses_t *poses, bus_master_t *time, hal_can_t *can, can_faults_t *faults);
-
-/**
- * Take one frame as pose_from_can() takes each: for tools that hear the bus in another way.
- *
  * @return Was it one of this viewer's, good or bad?
  */
-bool pose_from_frame(can_poses_t *poses, const hal_can_frame_t *frame, can_faults_t *faults);
+bool pose_from_frame(can_poses_t *poses, const bus_master_t *time, const hal_can_frame_t *frame, can_faults_t *faults);
+
+/** Count what a decoder has found. */
+void can_faults_count(can_faults_t *faults, can_check_t check);
 
 /** @return The sum of all counters but tracking_lost, modulo 2^32: the figure of the status message. */
 uint32_t can_faults_total(const can_faults_t *faults);

@@ -58,3 +58,24 @@ const pose_at_t *pose_history_back(const pose_history_t *history, int32_t back)
         return NULL;
     return &history->pose[(history->newest - back + POSE_HISTORY_POSES) % POSE_HISTORY_POSES];
 }
+
+static bool follows(const pose_at_t *newer, const pose_at_t *older, int counters)
+{
+    return newer->counter == (older->counter + 1) % counters;
+}
+
+bool pose_history_until(pose_history_t *history, int64_t limit_us, int counters)
+{
+    const pose_at_t *after = NULL;
+    for (; history->count > 0 && pose_history_back(history, 0)->time_us > limit_us; history->count--) {
+        after = pose_history_back(history, 0);
+        history->newest = (history->newest + POSE_HISTORY_POSES - 1) % POSE_HISTORY_POSES;
+    }
+    const pose_at_t *newest = pose_history_back(history, 0), *before = pose_history_back(history, 1);
+    if (newest == NULL)
+        return false;
+    if (after != NULL)
+        return follows(after, newest, counters);
+    return before != NULL && follows(newest, before, counters) &&
+           limit_us - newest->time_us < (newest->time_us - before->time_us) / 4 * 3;
+}

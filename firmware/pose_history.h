@@ -52,4 +52,13 @@ pose_history_added_t pose_history_add(pose_history_t *history, const can_pose_t 
 /** @return The pose `back` poses before the newest; NULL when there is none. back >= 0. */
 const pose_at_t *pose_history_back(const pose_history_t *history, int32_t back);
 
+/**
+ * Forget what was captured after a moment, so that all boards choose from the same poses.
+ *
+ * @param counters  The sender's counters go from 0 to one less: what a gap is.
+ * @return Is the newest pose that is left certain to be the newest that was captured up to then? Not when one was lost
+ *         behind it, or might still be under way: three quarters of the poses' interval have gone by without one.
+ */
+bool pose_history_until(pose_history_t *history, int64_t limit_us, int counters);
+
 #endif

@@ -2,6 +2,7 @@
 // The loop body: the stages of a frame by name, in order.
 #include "firmware/projector.h"
 
+#include "firmware/bus_receive.h"
 #include "firmware/safe_picture.h"
 #include "firmware/warp_steps.h"
 
@@ -18,9 +19,16 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
     projector->kernels = kernels;
     projector->poses = (can_poses_t){.viewer = board->viewer};
     bus_master_init(&projector->time, (uint8_t)board->node, hal_time_now_us(devices->clock));
-    projector->picture = (hal_camera_frame_t){.picture = {.format = PICTURE_XRGB8888}};
-    projector->has_picture = false;
     projector->picture_us = hal_time_now_us(devices->clock);
+    const frame_choice_settings_t settings = {
+        .refresh = room->refresh,
+        .pose_delay_us = room->pose_delay_us,
+        .rule = room->rule,
+        .width = room->camera.width,
+        .height = room->camera.height,
+    };
+    if (!frame_choice_init(&projector->choice, &settings, (uint8_t)board->node, projector->picture_us))
+        projector->choice.rule.mode = POSE_FOR_FRAME_DELAY; /* room_load() refuses such a room */
     projector->report = (projector_report_t){.state = CAN_BOARD_WAITING};
     stage_times_init(&projector->stage_times);
     projector->shown_us = projector->picture_us;
@@ -45,7 +53,10 @@ void projector_keep_method(projector_t *projector)
 /* Keep the camera's newest picture; while it has none, the last good one stays. */
 static void take_newest_picture(projector_t *p, int64_t now_us)
 {
+    const kept_picture_t *newest = p->choice.next.any ? &p->choice.next : &p->choice.now;
     hal_camera_frame_t frame;
+    if (!frame_choice_wants_picture(&p->choice))
+        return;
     const hal_status_t status = hal_camera_take(p->board.camera, &frame);
     if (status == HAL_EMPTY)
         return;
@@ -53,20 +64,15 @@ static void take_newest_picture(projector_t *p, int64_t now_us)
         p->faults.camera++;
         return;
     }
-    if (p->has_picture && frame.sequence == p->picture.sequence) { /* a stuck source sends the old picture again */
+    const bool again = newest->any && frame.sequence == newest->frame.sequence; /* of a stuck source */
+    const bool fits = frame.picture.width == p->camera.width && frame.picture.height == p->camera.height &&
+                      frame.picture.format != PICTURE_GRAY8;
+    if (again || !fits) {
+        p->faults.picture_size += !again;
         hal_camera_release(p->board.camera, &frame);
         return;
     }
-    if (frame.picture.width != p->camera.width || frame.picture.height != p->camera.height ||
-        frame.picture.format == PICTURE_GRAY8) {
-        p->faults.picture_size++;
-        hal_camera_release(p->board.camera, &frame);
-        return;
-    }
-    if (p->has_picture)
-        hal_camera_release(p->board.camera, &p->picture);
-    p->picture = frame;
-    p->has_picture = true;
+    frame_choice_keep(&p->choice, &frame, &p->time);
     p->picture_us = now_us;
 }
 
@@ -74,7 +80,7 @@ static can_board_state_t state_now(const projector_t *p, int64_t now_us)
 {
     if (now_us - p->picture_us > PROJECTOR_CAMERA_LOST_US)
         return CAN_BOARD_FAULT;
-    if (!p->poses.any || !p->has_picture)
+    if (!p->poses.any || !p->choice.now.any)
         return CAN_BOARD_WAITING;
     const int64_t pose_age_us = now_us - p->poses.received_us;
     if (pose_age_us > PROJECTOR_SAFE_AFTER_US)
@@ -82,13 +88,19 @@ static can_board_state_t state_now(const projector_t *p, int64_t now_us)
     return pose_age_us > PROJECTOR_HOLD_AFTER_US ? CAN_BOARD_HOLDING : CAN_BOARD_RUNNING;
 }
 
-/* Warp the newest picture for the newest pose. @return false when that can't be done; the panel is then untouched. */
+/* Warp the refresh's picture for its pose. @return false when that can't be done; the panel is then untouched. */
 static bool draw_corrected(projector_t *p, const picture_t *panel)
 {
     homography_t homography;
+    pose_for_frame_t chosen;
+    if (!frame_choice_pose(&chosen, &p->choice, &p->poses, &p->camera))
+        return false;
     p->report.pose = p->poses.newest;
-    if (!homography_from_pose(&homography, &p->camera, &p->wall, &p->report.pose.pose) ||
-        !warp_plan(&p->warp, p->kernels, &p->report.warp, &homography, panel, &p->picture.picture))
+    p->report.pose.pose = chosen.pose;
+    p->report.pose.counter = chosen.drawn.counter;
+    const picture_t picture = frame_choice_picture(&p->choice);
+    if (!homography_from_pose(&homography, &chosen.camera, &p->wall, &chosen.pose) ||
+        !warp_plan(&p->warp, p->kernels, &p->report.warp, &homography, panel, &picture))
         return false;
     warp_steps_run(&p->warp, p->board.workers);
     return true;
@@ -115,7 +127,7 @@ static int64_t end_stage(projector_t *p, stage_t stage, int64_t begin_us)
 /* Luma and chroma stay apart where the display takes them: best with as much chroma as the picture has. */
 static picture_format_t panel_format(const projector_t *p)
 {
-    const picture_format_t from = p->picture.picture.format;
+    const picture_format_t from = p->choice.now.frame.picture.format; /* XRGB8888, all zero bytes, before the first */
     const bool halved = from == PICTURE_NV12;
     const picture_format_t wanted[2] = {halved ? PICTURE_NV12 : PICTURE_YUYV, halved ? PICTURE_YUYV : PICTURE_NV12};
     for (int i = 0; i < 2 && picture_is_yuv(from); i++)
@@ -128,7 +140,8 @@ static picture_format_t panel_format(const projector_t *p)
 static bool show(projector_t *p, int64_t begin_us, int64_t deadline_us)
 {
     picture_t panel;
-    hal_status_t status = hal_display_back_buffer(p->board.display, panel_format(p), p->picture.picture.matrix, &panel);
+    hal_status_t status =
+        hal_display_back_buffer(p->board.display, panel_format(p), p->choice.now.frame.picture.matrix, &panel);
     if (status == HAL_OK)
         draw(p, &panel);
     const int64_t drawn_us = end_stage(p, STAGE_WARP, begin_us);
@@ -191,13 +204,20 @@ static bool led_level(can_board_state_t state, int64_t now_us)
     return now_us / half_period_us % 2 == 0;
 }
 
+static int64_t newest_blank_us(const projector_t *p)
+{
+    return hal_display_next_vblank_us(p->board.display) - frame_rate_period_us(p->choice.clock.rate);
+}
+
 void projector_step(projector_t *p)
 {
     const int64_t now_us = end_stage(p, STAGE_WAIT, p->shown_us);
     drive(p, HAL_GPIO_STROBE, true);
-    pose_from_can(&p->poses, &p->time, p->board.can, &p->can_faults); /* bus -> newest checked pose, bus time */
+    const bus_receivers_t receivers = {&p->poses, &p->time, &p->choice.clock, &p->can_faults};
+    bus_receive(&receivers, p->board.can);           /* bus -> checked poses, bus time, numbers of refreshes */
     bus_master_step(&p->time, p->board.can, now_us); /* bus time -> bus, when it is this board's turn */
     take_newest_picture(p, now_us);                  /* camera -> newest picture, or the last good one */
+    frame_choice_step(&p->choice, &p->poses, &p->time, p->board.can, p->board.camera, newest_blank_us(p));
     p->report.state = state_now(p, now_us);
     const int64_t posed_us = end_stage(p, STAGE_POSE, now_us);
     const int64_t deadline_us = hal_display_next_vblank_us(p->board.display);

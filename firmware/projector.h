@@ -9,6 +9,7 @@
 #include "firmware/can_protocol.h"
 #include "firmware/degrade.h"
 #include "firmware/ladder.h"
+#include "firmware/frame_choice.h"
 #include "firmware/pose_from_can.h"
 #include "firmware/room.h"
 #include "firmware/stage_times.h"
@@ -55,10 +56,9 @@ struct projector {
     const warp_kernels_t *kernels;
 
     can_poses_t poses;
-    bus_master_t time;          /**< of the bus */
-    hal_camera_frame_t picture; /**< the newest, lent by the camera; XRGB8888 without pixels before the first */
-    bool has_picture;
-    int64_t picture_us; /**< when it was taken; at first the start of the loop */
+    bus_master_t time;     /**< of the bus */
+    frame_choice_t choice; /**< the picture and the pose of this refresh */
+    int64_t picture_us;    /**< when it was taken; at first the start of the loop */
     warp_t warp;
     ladder_t ladder;   /**< the board's method, and what stands in for it */
     degrade_t degrade; /**< which step of it is in use */

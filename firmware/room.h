@@ -6,6 +6,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "firmware/frame_rate.h"
+#include "firmware/pose_for_frame.h"
 #include "warp_fixed/homography_from_pose.h"
 #include "warp_fixed/ls_fit.h"
 #include "warp_fixed/method.h"
@@ -32,6 +34,9 @@ typedef struct {
     room_board_t board[ROOM_MAX_BOARDS];
     int32_t bitrate, data_bitrate; /**< bit/s; 500000 and 2000000 unless stated */
     bool fd;                       /**< pose as one CAN FD frame; true unless stated */
+    frame_rate_t refresh;          /**< of all panels; 60 Hz unless stated */
+    int32_t pose_delay_us;         /**< from a pose's capture until every board has it; 2 ms unless stated */
+    pose_for_frame_rule_t rule;    /**< which pose a picture is mapped with; the newest one unless stated */
 } room_t;
 
 /** Hears every warning of room_load(): one line without newline, "FILE:LINE: KEY: what". */

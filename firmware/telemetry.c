@@ -154,9 +154,23 @@ static void send_time(projector_t *p, int64_t now_us)
     send(p, can_time_encode(&frame, &time), &frame);
 }
 
+/* All boards report the same refreshes. */
+static void send_step(projector_t *p)
+{
+    can_step_t step = frame_choice_report(&p->choice);
+    step.node = (uint8_t)p->node;
+    step.counter = p->telemetry.step_counter;
+    step.in_step &= p->report.corrected && p->report.times.shown && !p->report.times.late;
+    p->telemetry.step_counter = (uint8_t)((p->telemetry.step_counter + 1) % CAN_E2E_P01_COUNTERS);
+    hal_can_frame_t frame;
+    send(p, can_step_encode(&frame, &step), &frame);
+}
+
 void telemetry_send(projector_t *projector, int64_t now_us)
 {
     telemetry_t *t = &projector->telemetry;
+    if (projector->choice.clock.now.any && projector->choice.step.number % CAN_STEP_EVERY == 0)
+        send_step(projector);
     if (now_us >= t->status_due_us) {
         t->status_due_us = now_us + CAN_STATUS_PERIOD_MS * 1000;
         send_status(projector, now_us);

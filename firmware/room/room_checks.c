@@ -237,7 +237,7 @@ static bool check_can(const room_checker_t *checker, const room_yaml_can_t *yaml
 
 bool room_checks(const room_checker_t *checker, const room_yaml_t *yaml, room_t *room)
 {
-    *room = (room_t){.board_count = (int32_t)yaml->board_count};
+    *room = (room_t){.board_count = (int32_t)yaml->board_count, .refresh = {60, 1}, .pose_delay_us = 2000};
     if (!check_camera(checker, &yaml->camera, &room->camera))
         return false;
     for (int32_t b = 0; b < room->board_count; b++) {

@@ -8,12 +8,15 @@
 #include <linux/ethtool.h>
 #include <linux/sockios.h>
 #include <net/if.h>
+#include <poll.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "sim/devices/sim_clock.h"
+
+enum { US_PER_S = 1000000, FRAMES_PER_S = 9000 /* 8 bytes take 111 bits and more: a bus of 1 Mbit/s is full */ };
 
 bool bus_flood(const char *bus, const bus_flood_t *flood, int64_t *sent, char error[POSE_LINK_MESSAGE_LENGTH])
 {
@@ -22,11 +25,13 @@ bool bus_flood(const char *bus, const bus_flood_t *flood, int64_t *sent, char er
     if (!pose_link_open(&link, bus, false, error))
         return false;
     const hal_can_frame_t frame = {.id = flood->id, .length = 8};
-    const int64_t end_us = sim_clock_monotonic_us() + flood->length_us;
+    const int64_t start_us = sim_clock_monotonic_us();
     bool ok = true;
-    while (ok && !*flood->stop && sim_clock_monotonic_us() < end_us) {
-        ok = pose_link_send(&link, &frame, 1, error);
-        *sent += ok;
+    for (int64_t since_us = 0; ok && !*flood->stop && since_us < flood->length_us;) {
+        for (; ok && *sent * US_PER_S < since_us * FRAMES_PER_S; *sent += ok)
+            ok = pose_link_send(&link, &frame, 1, error);
+        poll(NULL, 0, 1);
+        since_us = sim_clock_monotonic_us() - start_us;
     }
     pose_link_close(&link);
     return ok;

@@ -16,7 +16,7 @@ typedef struct {
 } bus_flood_t;
 
 /**
- * Send frames of 8 bytes as fast as the bus takes them.
+ * Send frames of 8 bytes, more than a bus of 1 Mbit/s takes.
  *
  * @param[out] sent   Frames, also on failure.
  * @param[out] error  On failure: one line without newline.

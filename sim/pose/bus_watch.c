@@ -3,6 +3,7 @@
 #include "sim/pose/bus_watch.h"
 
 #include <math.h>
+#include <stddef.h>
 
 #include "sim/bus/sim_can_bits.h"
 
@@ -86,7 +87,7 @@ static bool take_pose(bus_watch_viewer_t *viewer, const hal_can_frame_t *frame)
 {
     /* A good pose leaves its time here, and all times of frames are later than this one. */
     viewer->receiver.received_us = INT64_MIN;
-    if (!pose_from_frame(&viewer->receiver, frame, &viewer->faults))
+    if (!pose_from_frame(&viewer->receiver, NULL, frame, &viewer->faults))
         return false;
     const bool fd = frame->id < CAN_ID_POSE_SET;
     viewer->fd |= fd;

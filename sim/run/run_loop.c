@@ -111,8 +111,8 @@ static bool hand_over(run_loop_t *loop, int64_t blank_us)
         job->corrected[i] = projector->report.corrected && shown != NULL;
         const picture_t panel = shown == NULL ? (picture_t){0} : picture_from_image(shown);
         run_pictures_copy(&job->shown[i], shown == NULL ? NULL : &panel);
-        if (picture == NULL && projector->has_picture)
-            picture = &projector->picture.picture;
+        if (picture == NULL && projector->choice.now.any)
+            picture = &projector->choice.now.frame.picture;
     }
     run_pictures_copy(&job->picture, picture);
     run_pictures_submit(loop->pictures, job);

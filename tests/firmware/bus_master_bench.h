@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "firmware/pose_from_can.h"
+#include "firmware/bus_receive.h"
 #include "sim/bus/sim_bus.h"
 #include "sim/devices/sim_clock.h"
 #include "tests/support/rng.h"
@@ -122,7 +122,7 @@ static inline void bench_step(bench_t *b)
         sim_clock_set_us(node->clock, b->now_us);
         if (node->absent)
             continue;
-        pose_from_can(&node->poses, &node->time, node->can, &node->faults);
+        bus_receive(&(bus_receivers_t){.poses = &node->poses, .time = &node->time, .faults = &node->faults}, node->can);
         bus_master_step(&node->time, node->can, local_now(b, i));
     }
     bench_compare(b);

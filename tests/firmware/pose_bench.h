@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "firmware/pose_from_can.h"
+#include "firmware/bus_receive.h"
 #include "tests/support/random_pose.h"
 
 enum { FAKE_CAN_FRAMES = 1024 };
@@ -76,7 +76,7 @@ static inline bench_t new_bench(void)
 
 static inline void receive(bench_t *bench)
 {
-    pose_from_can(&bench->poses, NULL, &bench->can, &bench->faults);
+    bus_receive(&(bus_receivers_t){.poses = &bench->poses, .faults = &bench->faults}, &bench->can);
     assert_int_equal(bench->can.next, bench->can.count);
 }
 

@@ -114,10 +114,10 @@ static void test_the_loop_is_bounded(void **state)
 {
     (void)state;
     bench_t bench = new_bench();
-    for (int i = 0; i < POSE_FROM_CAN_FRAMES + 10; i++)
+    for (int i = 0; i < BUS_RECEIVE_FRAMES + 10; i++)
         send_fd(&bench, i % CAN_E2E_P05_COUNTERS);
-    pose_from_can(&bench.poses, NULL, &bench.can, &bench.faults);
-    assert_int_equal(bench.can.next, POSE_FROM_CAN_FRAMES);
+    bus_receive(&(bus_receivers_t){.poses = &bench.poses, .faults = &bench.faults}, &bench.can);
+    assert_int_equal(bench.can.next, BUS_RECEIVE_FRAMES);
     bench.expected.overrun = 1;
     check_faults(&bench);
     receive(&bench);

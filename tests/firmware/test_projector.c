@@ -106,7 +106,7 @@ static void test_pictures_of_a_wrong_size_are_counted_and_not_shown(void **state
         bench.step++;
     }
     assert_true(other->faults.picture_size > 40);
-    assert_false(other->has_picture);
+    assert_false(other->choice.now.any);
     assert_int_equal(other->report.state, CAN_BOARD_FAULT);
     assert_true(room_bench_is_safe_picture(&bench, 0));
     free(other);

@@ -30,7 +30,8 @@ static void make_expected(uint8_t *bytes, picture_format_t format)
     warp_init(&warp, *bench.room.board[0].method, bench.room.board[0].step_all, bench.room.board[0].border);
     assert_true(
         homography_from_pose(&homography, &bench.room.camera, &bench.room.board[0].wall, &board_zero.report.pose.pose));
-    assert_true(warp_plan(&warp, &warp_kernels_scalar, NULL, &homography, &panel, &board_zero.picture.picture));
+    assert_true(
+        warp_plan(&warp, &warp_kernels_scalar, NULL, &homography, &panel, &board_zero.choice.now.frame.picture));
     warp_steps_run(&warp, NULL);
     sim_picture_to_xrgb(&image, &panel);
 }
@@ -76,7 +77,7 @@ static void run_board(uint8_t *shown_bytes, const formats_t *formats, hal_worker
     }
     assert_int_equal(board_zero.report.state, CAN_BOARD_RUNNING);
     assert_true(board_zero.report.corrected);
-    assert_int_equal(board_zero.picture.picture.format, formats->camera);
+    assert_int_equal(board_zero.choice.now.frame.picture.format, formats->camera);
     sim_display_advance(board.display, room_bench_now_us(&bench));
     assert_int_equal(sim_display_scanned(board.display)->format, formats->panel);
     const image_t *shown = sim_display_shown(board.display);

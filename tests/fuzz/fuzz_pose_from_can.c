@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fuzzes the receiver of poses: whatever comes over the bus, its newest pose is one that a wall can be drawn from, and
 // a damaged frame never becomes it.
-#include "firmware/pose_from_can.h"
+#include "firmware/bus_receive.h"
 
 #include <string.h>
 
@@ -79,7 +79,7 @@ static void receive(bench_t *bench, hal_can_t *can)
 {
     const uint8_t viewer = bench->poses.viewer;
     const can_faults_t before = bench->faults;
-    pose_from_can(&bench->poses, &bench->time, can, &bench->faults);
+    bus_receive(&(bus_receivers_t){.poses = &bench->poses, .time = &bench->time, .faults = &bench->faults}, can);
     fuzz_check(bench->faults.overrun >= before.overrun && bench->faults.crc >= before.crc, "faults are counted up");
     fuzz_check(can->broken || can->endless || can->next == can->count, "everything received is taken");
     check_newest(bench, viewer);

@@ -43,7 +43,7 @@ static void listen_to(const char *arguments, int parts, double mm, double compon
     for (; fgets(line, sizeof line, sender) != NULL; frames++) {
         hal_can_frame_t frame;
         assert_null(candump_frame_from_text(&frame, interface, line));
-        assert_true(pose_from_frame(&poses, &frame, &faults));
+        assert_true(pose_from_frame(&poses, NULL, &frame, &faults));
         if (frames % parts < parts - 1)
             continue;
         assert_true(poses.any);

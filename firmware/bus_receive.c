@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one place where the firmware reads the bus.
+#include "firmware/bus_receive.h"
+
+#include <stddef.h>
+
+static void leave_bus_off(const bus_receivers_t *to, hal_can_t *can)
+{
+    if (hal_can_state(can) != HAL_CAN_BUS_OFF)
+        return;
+    to->faults->bus_off++;
+    if (hal_can_restart(can) != HAL_OK)
+        to->faults->io++;
+}
+
+static void take(const bus_receivers_t *to, const hal_can_frame_t *frame)
+{
+    can_check_t check = to->time == NULL ? CAN_CHECK_OTHER : bus_master_hear(to->time, frame);
+    if (check == CAN_CHECK_OTHER && to->clock != NULL)
+        check =
+            frame_clock_hear(to->clock, frame, frame->time_us, bus_time_from_local(&to->time->time, frame->time_us));
+    can_faults_count(to->faults, check);
+    if (check == CAN_CHECK_OTHER)
+        (void)pose_from_frame(to->poses, to->time, frame, to->faults);
+}
+
+void bus_receive(const bus_receivers_t *to, hal_can_t *can)
+{
+    leave_bus_off(to, can);
+    for (int i = 0; i < BUS_RECEIVE_FRAMES; i++) {
+        hal_can_frame_t frame;
+        const hal_status_t status = hal_can_receive(can, &frame);
+        if (status == HAL_EMPTY)
+            return;
+        if (status != HAL_OK) {
+            to->faults->io++;
+            return;
+        }
+        take(to, &frame);
+    }
+    to->faults->overrun++;
+}

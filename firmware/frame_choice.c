@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bus time, camera and poses -> the picture and the pose that belong to this refresh.
+#include "firmware/frame_choice.h"
+
+#include <stddef.h>
+
+bool frame_choice_init(frame_choice_t *choice, const frame_choice_settings_t *settings, uint8_t node, int64_t now_us)
+{
+    *choice = (frame_choice_t){.rule = settings->rule};
+    frame_clock_init(&choice->clock, node, settings->refresh, settings->pose_delay_us, now_us);
+    if (settings->rule.mode != POSE_FOR_FRAME_TAG)
+        return true;
+    frame_tag_layout_t layout;
+    if (!frame_tag_layout(&layout, settings->width, settings->height))
+        return false;
+    choice->hidden_px = layout.hidden_px;
+    return true;
+}
+
+bool frame_choice_wants_picture(const frame_choice_t *choice)
+{
+    return !choice->next.any;
+}
+
+void frame_choice_keep(frame_choice_t *choice, const hal_camera_frame_t *frame, const bus_master_t *time)
+{
+    kept_picture_t kept = {.any = true, .frame = *frame};
+    kept.capture_us = bus_time_from_local(&time->time, frame->capture_time_us);
+    if (choice->hidden_px > 0) {
+        kept.tagged = frame_tag_decode(&kept.tag, &frame->picture) == FRAME_TAG_OK;
+        choice->tags_lost += !kept.tagged;
+    }
+    if (choice->now.any)
+        choice->interval_us = kept.capture_us - choice->now.capture_us;
+    choice->next = kept;
+}
+
+/* The next picture is due when it was captured up to the limit; without one, as soon as it is here. */
+static void choose_picture(frame_choice_t *choice, hal_camera_t *camera)
+{
+    const int64_t limit_us = choice->step.in_step ? choice->step.picture_limit_us : INT64_MAX;
+    if (choice->next.any && (!choice->now.any || choice->next.capture_us <= limit_us)) {
+        if (choice->now.any)
+            hal_camera_release(camera, &choice->now.frame);
+        choice->now = choice->next;
+        choice->next.any = false;
+    }
+    if (!choice->now.any || !choice->step.in_step) {
+        choice->picture_certain = false;
+        return;
+    }
+    const int64_t before_us = limit_us - choice->now.capture_us,
+                  after_us =
+                      choice->next.any ? choice->next.capture_us - limit_us : choice->interval_us * 3 / 4 - before_us;
+    choice->picture_certain = before_us > FRAME_CHOICE_EDGE_US && after_us > FRAME_CHOICE_EDGE_US;
+}
+
+static void choose_poses(frame_choice_t *choice, const can_poses_t *poses)
+{
+    choice->history = poses->history;
+    choice->pose_certain = choice->step.in_step && poses->captured &&
+                           pose_history_until(&choice->history, choice->step.pose_limit_us, poses->counters);
+    if (choice->history.count == 0)
+        choice->history = poses->history; /* an old pose is better than none */
+}
+
+void frame_choice_step(frame_choice_t *choice, const can_poses_t *poses, const bus_master_t *time, hal_can_t *can,
+                       hal_camera_t *camera, int64_t blank_us)
+{
+    const kept_picture_t *newest = choice->next.any ? &choice->next : &choice->now;
+    const int64_t blank_bus_us = bus_time_from_local(&time->time, blank_us);
+    const frame_blank_t blank = {
+        .now_us = blank_us,
+        .blank_us = blank_bus_us,
+        .bus_time_known = bus_master_knows(time, blank_us),
+        .picture_age_us = newest->any ? (int32_t)(blank_bus_us - newest->capture_us) : -1,
+    };
+    choice->step = frame_clock_step(&choice->clock, can, &blank);
+    choose_picture(choice, camera);
+    choose_poses(choice, poses);
+}
+
+bool frame_choice_pose(pose_for_frame_t *chosen, const frame_choice_t *choice, const can_poses_t *poses,
+                       const camera_t *camera)
+{
+    const int32_t period_us = frame_rate_period_us(choice->clock.rate);
+    const bool fd = poses->counters == CAN_E2E_P05_COUNTERS;
+    const pose_for_frame_picture_t picture = {
+        .picture_us = choice->now.capture_us,
+        .shown_us = choice->step.start_us + period_us + period_us / 2, /* the middle of the next refresh */
+        .tagged = choice->now.tagged,
+        .tag = choice->now.tag,
+        .wrap_us = fd ? CAN_POSE_FD_WRAP_US : CAN_POSE_SET_WRAP_US,
+    };
+    const camera_t below = frame_tag_camera_below(camera, choice->hidden_px);
+    return pose_for_frame(chosen, &choice->history, &below, &choice->rule, &picture);
+}
+
+picture_t frame_choice_picture(const frame_choice_t *choice)
+{
+    return frame_tag_picture_below(&choice->now.frame.picture, choice->hidden_px);
+}
+
+can_step_t frame_choice_report(const frame_choice_t *choice)
+{
+    const pose_at_t *newest = pose_history_back(&choice->history, 0);
+    return (can_step_t){
+        .in_step = choice->picture_certain && choice->pose_certain,
+        .tagged = choice->now.tagged,
+        .refresh = (uint32_t)choice->step.number,
+        .picture = choice->now.tagged ? choice->now.tag.frame_number
+                                      : (uint32_t)frame_clock_picture_number(&choice->clock, choice->now.capture_us),
+        .pose_us = newest == NULL || newest->time_us < 0 ? 0 : (uint64_t)newest->time_us,
+    };
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bus time, camera and poses -> the picture and the pose that belong to this refresh, the same on all boards.
+#ifndef FIRMWARE_FRAME_CHOICE_H
+#define FIRMWARE_FRAME_CHOICE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "firmware/bus_master.h"
+#include "firmware/frame_clock.h"
+#include "firmware/frame_tag.h"
+#include "firmware/pose_for_frame.h"
+#include "firmware/pose_from_can.h"
+#include "hal/hal_camera.h"
+
+enum { FRAME_CHOICE_EDGE_US = 500 /**< a picture captured so near to the limit may be another board's next one */ };
+
+/** A picture of the camera, kept. */
+typedef struct {
+    bool any;
+    hal_camera_frame_t frame; /**< lent by the camera */
+    int64_t capture_us;       /**< bus time, as it was known when the picture came */
+    bool tagged;
+    frame_tag_t tag;
+} kept_picture_t;
+
+/** All zero bytes but for what frame_choice_init() sets. */
+typedef struct {
+    frame_clock_t clock;
+    pose_for_frame_rule_t rule;
+    int32_t hidden_px;        /**< rows of every picture that hold the tag, and are not shown; 0 without tags */
+    kept_picture_t now, next; /**< shown now; captured, but not due yet */
+    int64_t interval_us;      /**< between the newest two pictures; 0: unknown */
+
+    frame_step_t step;      /**< this refresh */
+    bool picture_certain;   /**< `now` is certain to be every board's picture */
+    pose_history_t history; /**< the poses that count for this refresh */
+    bool pose_certain;      /**< and the newest of them is every board's */
+    uint32_t tags_lost;     /**< pictures whose tag could not be read, when tags are expected */
+} frame_choice_t;
+
+/** How the room wants it. */
+typedef struct {
+    frame_rate_t refresh;
+    int32_t pose_delay_us; /**< see frame_clock_init() */
+    pose_for_frame_rule_t rule;
+    int32_t width, height; /**< of the camera's pictures */
+} frame_choice_settings_t;
+
+/** @return false when tags are asked for and pictures of this size have no room for them. */
+bool frame_choice_init(frame_choice_t *choice, const frame_choice_settings_t *settings, uint8_t node, int64_t now_us);
+
+/**
+ * Keep a picture that the camera has lent; it is shown when it is due.
+ *
+ * @param frame  Not GRAY8, of the settings' size. Only when frame_choice_wants_picture().
+ */
+void frame_choice_keep(frame_choice_t *choice, const hal_camera_frame_t *frame, const bus_master_t *time);
+
+/** @return Is there room for another picture? */
+bool frame_choice_wants_picture(const frame_choice_t *choice);
+
+/**
+ * Number this refresh, and choose for it. To be called once a blank, after the bus and the camera were read.
+ *
+ * A picture that is not shown any more goes back to the camera.
+ *
+ * @param blank_us  The newest vertical blank, on the board's clock.
+ */
+void frame_choice_step(frame_choice_t *choice, const can_poses_t *poses, const bus_master_t *time, hal_can_t *can,
+                       hal_camera_t *camera, int64_t blank_us);
+
+/**
+ * The pose, and the camera for it, to map the picture with.
+ *
+ * @param camera  The room's.
+ * @return false while there is no pose.
+ */
+bool frame_choice_pose(pose_for_frame_t *chosen, const frame_choice_t *choice, const can_poses_t *poses,
+                       const camera_t *camera);
+
+/** @return The picture to be shown, without the rows of a tag. Only when choice->now.any. */
+picture_t frame_choice_picture(const frame_choice_t *choice);
+
+/** @return What this board shows, for its Step message; node and counter are the caller's. */
+can_step_t frame_choice_report(const frame_choice_t *choice);
+
+#endif
