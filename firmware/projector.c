@@ -9,6 +9,16 @@
 _Static_assert((int)ROOM_VIEWERS == (int)CAN_VIEWERS, "a room file may name every viewer");
 _Static_assert((int)LADDER_STEPS <= (int)DEGRADE_MAX_STEPS, "every ladder must fit");
 
+/* Rows of pictures that hold a tag are not seen, and have no weight. */
+static void set_weights(projector_t *projector, const ls_weights_t *weights)
+{
+    ls_weights_t below = *weights;
+    const int32_t hidden = projector->choice.hidden_px;
+    for (int32_t y = 0; y + hidden < projector->camera.height; y++)
+        below.y[y] = weights->y[y + hidden];
+    warp_set_ls_weights(&projector->warp, &below);
+}
+
 void projector_init(projector_t *projector, const room_t *room, const room_board_t *board, const hal_board_t *devices,
                     const warp_kernels_t *kernels)
 {
@@ -36,7 +46,7 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
     projector->can_faults = (can_faults_t){.length = 0};
     telemetry_init(&projector->telemetry, projector->picture_us);
     warp_init(&projector->warp, *board->method, board->step_all, board->border);
-    warp_set_ls_weights(&projector->warp, &board->ls_weights);
+    set_weights(projector, &board->ls_weights);
     projector->ladder = ladder_of(board->method);
     ladder_t *ladder = &projector->ladder;
     for (int32_t step = 1; step < ladder->steps; step++)

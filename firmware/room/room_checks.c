@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "firmware/room/room_frames.h"
 #include "firmware/room/room_scalar.h"
 #include "warp_fixed/image.h"
 
@@ -237,7 +238,7 @@ static bool check_can(const room_checker_t *checker, const room_yaml_can_t *yaml
 
 bool room_checks(const room_checker_t *checker, const room_yaml_t *yaml, room_t *room)
 {
-    *room = (room_t){.board_count = (int32_t)yaml->board_count, .refresh = {60, 1}, .pose_delay_us = 2000};
+    *room = (room_t){.board_count = (int32_t)yaml->board_count};
     if (!check_camera(checker, &yaml->camera, &room->camera))
         return false;
     for (int32_t b = 0; b < room->board_count; b++) {
@@ -247,5 +248,5 @@ bool room_checks(const room_checker_t *checker, const room_yaml_t *yaml, room_t 
             !check_markers(checker, &yaml->board[b], corners, b) || !check_look(checker, &yaml->board[b], room, b))
             return false;
     }
-    return check_can(checker, &yaml->can, room);
+    return check_can(checker, &yaml->can, room) && room_frames_check(checker, &yaml->frames, room);
 }

@@ -66,10 +66,30 @@ static const cyaml_schema_field_t can_keys[] = {
     CYAML_FIELD_INT_PTR("data_bitrate", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, room_yaml_can_t, data_bitrate),
     CYAML_FIELD_BOOL_PTR("fd", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, room_yaml_can_t, fd), CYAML_FIELD_END};
 
+static const cyaml_strval_t poses[] = {{.str = "latest", .val = ROOM_YAML_POSE_LATEST},
+                                       {.str = "delay", .val = ROOM_YAML_POSE_DELAY},
+                                       {.str = "tag", .val = ROOM_YAML_POSE_TAG}};
+
+static const cyaml_strval_t contents[] = {{.str = "wall", .val = ROOM_YAML_CONTENT_WALL},
+                                          {.str = "depth", .val = ROOM_YAML_CONTENT_DEPTH},
+                                          {.str = "far", .val = ROOM_YAML_CONTENT_FAR}};
+
+static const cyaml_schema_field_t frames_keys[] = {
+    CYAML_FIELD_FLOAT_PTR("refresh_hz", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, room_yaml_frames_t, refresh_hz),
+    CYAML_FIELD_FLOAT_PTR("pose_delay_ms", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, room_yaml_frames_t, pose_delay_ms),
+    CYAML_FIELD_ENUM("pose", CYAML_FLAG_OPTIONAL | CYAML_FLAG_STRICT, room_yaml_frames_t, pose, poses,
+                     CYAML_ARRAY_LEN(poses)),
+    CYAML_FIELD_FLOAT_PTR("render_ms", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, room_yaml_frames_t, render_ms),
+    CYAML_FIELD_ENUM("content", CYAML_FLAG_OPTIONAL | CYAML_FLAG_STRICT, room_yaml_frames_t, content, contents,
+                     CYAML_ARRAY_LEN(contents)),
+    CYAML_FIELD_FLOAT_PTR("depth_mm", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, room_yaml_frames_t, depth_mm),
+    CYAML_FIELD_END};
+
 static const cyaml_schema_field_t room_keys[] = {
     CYAML_FIELD_MAPPING("camera", CYAML_FLAG_DEFAULT, room_yaml_t, camera, camera_keys),
     CYAML_FIELD_SEQUENCE_COUNT("boards", CYAML_FLAG_POINTER, room_yaml_t, board, board_count, &board, 1,
                                ROOM_MAX_BOARDS),
-    CYAML_FIELD_MAPPING("can", CYAML_FLAG_OPTIONAL, room_yaml_t, can, can_keys), CYAML_FIELD_END};
+    CYAML_FIELD_MAPPING("can", CYAML_FLAG_OPTIONAL, room_yaml_t, can, can_keys),
+    CYAML_FIELD_MAPPING("frames", CYAML_FLAG_OPTIONAL, room_yaml_t, frames, frames_keys), CYAML_FIELD_END};
 
 const cyaml_schema_value_t room_schema = {CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, room_yaml_t, room_keys)};

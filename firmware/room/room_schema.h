@@ -52,11 +52,22 @@ typedef struct {
     bool *fd;
 } room_yaml_can_t;
 
+typedef enum { ROOM_YAML_POSE_LATEST, ROOM_YAML_POSE_DELAY, ROOM_YAML_POSE_TAG } room_yaml_pose_t;
+
+typedef enum { ROOM_YAML_CONTENT_WALL, ROOM_YAML_CONTENT_DEPTH, ROOM_YAML_CONTENT_FAR } room_yaml_content_t;
+
+typedef struct {
+    double *refresh_hz, *pose_delay_ms, *render_ms, *depth_mm;
+    room_yaml_pose_t pose;       /**< latest unless stated */
+    room_yaml_content_t content; /**< wall unless stated */
+} room_yaml_frames_t;
+
 typedef struct {
     room_yaml_camera_t camera;
     room_yaml_board_t *board;
     uint32_t board_count;
     room_yaml_can_t can;
+    room_yaml_frames_t frames;
 } room_yaml_t;
 
 /** Of the whole file: a mapping into a room_yaml_t that libcyaml allocates. */

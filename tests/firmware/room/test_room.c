@@ -39,7 +39,8 @@ static const char full_room[] =
     "    node: 1\n"
     "    projector: {width: 1280, height: 800}\n"
     "    wall:\n"
-    "      corners_mm:\n" LEFT_CORNERS "can: {bitrate: 250000, data_bitrate: 1000000, fd: false}\n";
+    "      corners_mm:\n" LEFT_CORNERS "can: {bitrate: 250000, data_bitrate: 1000000, fd: false}\n"
+    "frames: {refresh_hz: 59.94, pose_delay_ms: 4.5, pose: delay, render_ms: 33.4, content: depth, depth_mm: 5000}\n";
 
 /* All warnings of one load, one per line. */
 typedef struct {
@@ -109,6 +110,9 @@ static void test_optional_keys_have_their_defaults(void **state)
     assert_int_equal(room.bitrate, 500000);
     assert_int_equal(room.data_bitrate, 2000000);
     assert_true(room.fd);
+    assert_true(room.refresh.frames == 60 && room.refresh.seconds == 1);
+    assert_int_equal(room.pose_delay_us, 2000);
+    assert_true(room.rule.mode == POSE_FOR_FRAME_LATEST && room.rule.content == POSE_FOR_FRAME_WALL);
 }
 
 static void test_every_key_is_read(void **state)
@@ -126,6 +130,11 @@ static void test_every_key_is_read(void **state)
     assert_int_equal(room.bitrate, 250000);
     assert_int_equal(room.data_bitrate, 1000000);
     assert_false(room.fd);
+    assert_true(room.refresh.frames == 60000 && room.refresh.seconds == 1001);
+    assert_int_equal(room.pose_delay_us, 4500);
+    assert_true(room.rule.mode == POSE_FOR_FRAME_DELAY && room.rule.content == POSE_FOR_FRAME_DEPTH);
+    assert_int_equal(room.rule.render_us, 33400);
+    assert_int_equal(room.rule.depth_um, 5000000);
     const room_board_t *front = room_board_named(&room, "front-1_A");
     assert_ptr_equal(front, &room.board[0]);
     assert_int_equal(front->node, 63);
