@@ -72,7 +72,7 @@ void frame_choice_step(frame_choice_t *choice, const can_poses_t *poses, const b
     const frame_blank_t blank = {
         .now_us = blank_us,
         .blank_us = blank_bus_us,
-        .bus_time_known = bus_master_knows(time, blank_us),
+        .bus_time_known = bus_master_error_us(time, blank_us) <= FRAME_CHOICE_TIME_US,
         .picture_age_us = newest->any ? (int32_t)(blank_bus_us - newest->capture_us) : -1,
     };
     choice->step = frame_clock_step(&choice->clock, can, &blank);
@@ -80,14 +80,19 @@ void frame_choice_step(frame_choice_t *choice, const can_poses_t *poses, const b
     choose_poses(choice, poses);
 }
 
+int64_t frame_choice_shown_us(const frame_choice_t *choice)
+{
+    const int32_t period_us = frame_rate_period_us(choice->clock.rate);
+    return choice->step.start_us + period_us + period_us / 2;
+}
+
 bool frame_choice_pose(pose_for_frame_t *chosen, const frame_choice_t *choice, const can_poses_t *poses,
                        const camera_t *camera)
 {
-    const int32_t period_us = frame_rate_period_us(choice->clock.rate);
     const bool fd = poses->counters == CAN_E2E_P05_COUNTERS;
     const pose_for_frame_picture_t picture = {
         .picture_us = choice->now.capture_us,
-        .shown_us = choice->step.start_us + period_us + period_us / 2, /* the middle of the next refresh */
+        .shown_us = frame_choice_shown_us(choice),
         .tagged = choice->now.tagged,
         .tag = choice->now.tag,
         .wrap_us = fd ? CAN_POSE_FD_WRAP_US : CAN_POSE_SET_WRAP_US,

@@ -13,7 +13,11 @@
 #include "firmware/pose_from_can.h"
 #include "hal/hal_camera.h"
 
-enum { FRAME_CHOICE_EDGE_US = 500 /**< a picture captured so near to the limit may be another board's next one */ };
+enum {
+    FRAME_CHOICE_TIME_US =
+        250, /**< bus time must be right to this: of one picture two boards then say nearly the same */
+    FRAME_CHOICE_EDGE_US = 500 /**< a picture captured so near to the limit may be another board's next one */
+};
 
 /** A picture of the camera, kept. */
 typedef struct {
@@ -78,6 +82,9 @@ void frame_choice_step(frame_choice_t *choice, const can_poses_t *poses, const b
  */
 bool frame_choice_pose(pose_for_frame_t *chosen, const frame_choice_t *choice, const can_poses_t *poses,
                        const camera_t *camera);
+
+/** @return Bus time of the middle of the next refresh, which shows what is drawn now. */
+int64_t frame_choice_shown_us(const frame_choice_t *choice);
 
 /** @return The picture to be shown, without the rows of a tag. Only when choice->now.any. */
 picture_t frame_choice_picture(const frame_choice_t *choice);

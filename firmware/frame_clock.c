@@ -2,7 +2,14 @@
 // The same frame on all walls: who leads, and what is announced.
 #include "firmware/frame_clock.h"
 
-enum { OFF_MEMORY = 64, LAG_MOST_US = 65528, OWN_LATE_US = 100000, OWN_RUN_US = 150000, STALE_REFRESHES = 12 };
+enum {
+    OFF_MEMORY = 64,
+    LAG_MOST_US = 65528,
+    OWN_LATE_US = 100000,
+    OWN_RUN_US = 150000,
+    STALE_REFRESHES = 12,
+    PERIOD_MOST_US = UINT16_MAX /* a phase is sent in 16 bits */
+};
 
 void frame_clock_init(frame_clock_t *clock, uint8_t node, frame_rate_t rate, int32_t pose_delay_us, int64_t now_us)
 {
@@ -150,6 +157,13 @@ can_check_t frame_clock_hear(frame_clock_t *clock, const hal_can_frame_t *frame,
     return CAN_CHECK_OK;
 }
 
+/* As it is sent. */
+static int32_t lag_from_age(int32_t age_us)
+{
+    const int32_t lag_us = age_us > LAG_MOST_US ? LAG_MOST_US : age_us;
+    return lag_us > 0 ? lag_us & ~7 : 0;
+}
+
 /* Lead from now on; with the epoch that is known, or the first one. */
 static void begin_to_lead(frame_clock_t *clock, const frame_blank_t *blank)
 {
@@ -164,6 +178,7 @@ static void begin_to_lead(frame_clock_t *clock, const frame_blank_t *blank)
         .any = true,
         .from = before,
         .phase_us = (int32_t)(blank->blank_us - frame_rate_length_us(clock->rate, before)),
+        .lag_us = lag_from_age(blank->picture_age_us),
     };
 }
 
@@ -175,7 +190,7 @@ static void propose(frame_clock_t *clock, const frame_step_t *step, int32_t phas
         .number = (uint8_t)((clock->now.number + 1) % CAN_EPOCHS),
         .from = step->number + FRAME_CLOCK_AHEAD_US / period_us + 1,
         .phase_us = phase_us,
-        .lag_us = (lag_us > LAG_MOST_US ? LAG_MOST_US : lag_us) & ~7, /* as it is sent */
+        .lag_us = lag_from_age(lag_us),
     };
     /* What is a whole period off is the neighbour's number. */
     if (next.phase_us < 0)
@@ -290,7 +305,8 @@ frame_step_t frame_clock_step(frame_clock_t *clock, hal_can_t *can, const frame_
     const int64_t patience_us = FRAME_CLOCK_SILENT_US + (int64_t)clock->node * FRAME_CLOCK_TURN_US;
     if (clock->leading && (!blank->bus_time_known || is_unheard(clock, blank->now_us)))
         cease_to_lead(clock, blank->now_us);
-    else if (!clock->leading && blank->bus_time_known && blank->now_us - clock->quiet_since_us >= patience_us)
+    else if (!clock->leading && blank->bus_time_known && frame_rate_period_us(clock->rate) <= PERIOD_MOST_US &&
+             blank->now_us - clock->quiet_since_us >= patience_us)
         begin_to_lead(clock, blank);
     frame_step_t step = find_step(clock, blank);
     if (clock->leading) {

@@ -93,6 +93,7 @@ typedef struct {
  * Begin to listen.
  *
  * @param node           1 to CAN_MAX_NODE.
+ * @param rate           Below 15.3 Hz nobody leads, and so nobody is in step.
  * @param pose_delay_us  0 to 50000: from capture to arrival of a pose at every board, and a quarter of the time between
  *                       two more.
  */

@@ -171,6 +171,15 @@ static bool show(projector_t *p, int64_t begin_us, int64_t deadline_us)
     return status == HAL_OK || status == HAL_IO;
 }
 
+/* What is on the wall from the next blank on; certain only when it got there in time. */
+static void note_agreement(projector_t *p)
+{
+    can_step_t *agreement = &p->report.agreement;
+    *agreement = frame_choice_report(&p->choice);
+    agreement->in_step &= p->report.corrected && p->report.times.shown && !p->report.times.late;
+    p->report.pose_to_photon_us = (int32_t)(frame_choice_shown_us(&p->choice) - (int64_t)agreement->pose_us);
+}
+
 /* The method of the next picture: the board's own, or one that this board has the time for. */
 static void choose_method(projector_t *p, int64_t time_us)
 {
@@ -233,6 +242,7 @@ void projector_step(projector_t *p)
     const int64_t deadline_us = hal_display_next_vblank_us(p->board.display);
     /* pose and picture -> homography, grid, prefilter, resample -> display */
     const bool healthy = show(p, posed_us, deadline_us);
+    note_agreement(p);
     stage_times_add(&p->stage_times, &p->report.times);
     choose_method(p, deadline_us - now_us); /* what this one took -> the next picture's method */
     drive(p, HAL_GPIO_STROBE, false);

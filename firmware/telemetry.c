@@ -157,10 +157,9 @@ static void send_time(projector_t *p, int64_t now_us)
 /* All boards report the same refreshes. */
 static void send_step(projector_t *p)
 {
-    can_step_t step = frame_choice_report(&p->choice);
+    can_step_t step = p->report.agreement;
     step.node = (uint8_t)p->node;
     step.counter = p->telemetry.step_counter;
-    step.in_step &= p->report.corrected && p->report.times.shown && !p->report.times.late;
     p->telemetry.step_counter = (uint8_t)((p->telemetry.step_counter + 1) % CAN_E2E_P01_COUNTERS);
     hal_can_frame_t frame;
     send(p, can_step_encode(&frame, &step), &frame);

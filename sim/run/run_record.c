@@ -124,6 +124,31 @@ run_board_sum_t run_record_board(const run_record_t *record, int32_t board, cons
     return sum;
 }
 
+run_agreement_t run_record_agreement(const run_record_t *record)
+{
+    run_agreement_t sum = {.refreshes = (int64_t)record->frames * record->boards};
+    for (int32_t n = 0; n < record->frames; n++) {
+        const can_step_t *first = NULL;
+        bool differ = false;
+        for (int32_t i = 0; i < record->boards; i++) {
+            const projector_report_t *report = &record->wall[n * record->boards + i].report;
+            const can_step_t *step = &report->agreement;
+            if (!step->in_step)
+                continue;
+            const double latency_ms = report->pose_to_photon_us / 1000.0;
+            sum.in_step++;
+            sum.latency_ms_mean += latency_ms;
+            sum.latency_ms_most = latency_ms > sum.latency_ms_most ? latency_ms : sum.latency_ms_most;
+            first = first == NULL ? step : first;
+            differ |=
+                step->refresh != first->refresh || step->picture != first->picture || step->pose_us != first->pose_us;
+        }
+        sum.differing += differ;
+    }
+    sum.latency_ms_mean /= sum.in_step > 0 ? (double)sum.in_step : 1;
+    return sum;
+}
+
 void run_pose_text(char text[RUN_POSE_TEXT_LENGTH], const pose_t *pose)
 {
     char mm[3][32];

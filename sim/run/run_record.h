@@ -70,6 +70,15 @@ void run_record_sort(run_record_t *record);
 /** Give the memory back. */
 void run_record_free(run_record_t *record);
 
+/** How the boards agreed. */
+typedef struct {
+    int64_t refreshes, in_step; /**< of all boards; of them in step */
+    int64_t differing;          /**< frames in which boards in step did not show the same picture for the same pose */
+    double latency_ms_mean, latency_ms_most; /**< pose to photon, of those in step; 0 when none was */
+} run_agreement_t;
+
+run_agreement_t run_record_agreement(const run_record_t *record);
+
 /** @return The figures of one board, taken over all frames. */
 run_board_sum_t run_record_board(const run_record_t *record, int32_t board, const wall_t *wall);
 

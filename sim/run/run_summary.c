@@ -62,5 +62,10 @@ void run_summary_print(const run_summary_t *summary, FILE *file)
         fprintf(file, " and %.5g kbit/s FD", room->data_bitrate / 1e3);
     fprintf(file, ": %" PRId64 " frames, load %.2f %%, at most %.2f %% from frame to frame\n", summary->bus.frames,
             summary->bus.load_ppm / 1e4, run_summary_peak_load_ppm(summary) / 1e4);
-    fprintf(file, "page: %s/index.html\n", summary->folder);
+    const run_agreement_t agreement = run_record_agreement(summary->record);
+    fprintf(file, "agreement: %" PRId64 " of %" PRId64 " walls in step, %" PRId64 " frames in which they differ",
+            agreement.in_step, agreement.refreshes, agreement.differing);
+    if (agreement.in_step > 0)
+        fprintf(file, "; pose to photon %.1f ms, at most %.1f", agreement.latency_ms_mean, agreement.latency_ms_most);
+    fprintf(file, "\npage: %s/index.html\n", summary->folder);
 }

@@ -82,6 +82,7 @@ static bool plan(run_t *run)
     loop->refresh = options->rate_hz > 0 ? run_rate_from_hz(options->rate_hz)
                     : is_real(run)       ? run_rate_from_hz(RUN_RATE_USUAL_HZ)
                                          : run_rate_of_poses(&run->poses);
+    run->room.refresh = (frame_rate_t){loop->refresh.frames, loop->refresh.seconds}; /* of the simulated panels */
     loop->start_us = is_real(run) ? sim_clock_monotonic_us() : 0;
     loop->frames = options->frames > 0 ? options->frames
                    : is_real(run)      ? INT64_MAX

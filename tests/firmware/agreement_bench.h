@@ -98,10 +98,9 @@ static inline void compare(bench_t *b)
     can_step_t first = {.in_step = false};
     for (int i = 0; i < BOARDS; i++) {
         const projector_t *projector = sim_world_projector(b->world, i);
-        const projector_report_t *report = &projector->report;
-        const can_step_t step = frame_choice_report(&projector->choice);
+        const can_step_t step = projector->report.agreement;
         b->shown++;
-        if (!step.in_step || !report->corrected || !report->times.shown || report->times.late)
+        if (!step.in_step)
             continue;
         b->in_step++;
         b->last_in_step[i] = b->step;
