@@ -4,6 +4,8 @@
 
 #include <stddef.h>
 
+enum { MOST_EDGES = 32 /* a line that rings must not hold the loop */ };
+
 bool frame_choice_init(frame_choice_t *choice, const frame_choice_settings_t *settings, uint8_t node, int64_t now_us)
 {
     *choice = (frame_choice_t){.rule = settings->rule};
@@ -33,6 +35,19 @@ void frame_choice_keep(frame_choice_t *choice, const hal_camera_frame_t *frame, 
     if (choice->now.any)
         choice->interval_us = kept.capture_us - choice->now.capture_us;
     choice->next = kept;
+}
+
+bool frame_choice_take_edges(frame_choice_t *choice, hal_gpio_t *gpio)
+{
+    for (int i = 0; i < MOST_EDGES; i++) {
+        int64_t edge_us = 0;
+        const hal_status_t status = hal_gpio_take_edge(gpio, HAL_GPIO_GENLOCK, &edge_us);
+        if (status != HAL_OK)
+            return status == HAL_EMPTY;
+        choice->house_any = true;
+        choice->house_us = edge_us;
+    }
+    return true;
 }
 
 /* The next picture is due when it was captured up to the limit; without one, as soon as it is here. */
@@ -73,6 +88,8 @@ void frame_choice_step(frame_choice_t *choice, const can_poses_t *poses, const b
         .now_us = blank_us,
         .blank_us = blank_bus_us,
         .bus_time_known = bus_master_error_us(time, blank_us) <= FRAME_CHOICE_TIME_US,
+        .genlocked = choice->house_any && blank_us - choice->house_us < FRAME_CHOICE_HOUSE_US,
+        .house_us = bus_time_from_local(&time->time, choice->house_us),
         .picture_age_us = newest->any ? (int32_t)(blank_bus_us - newest->capture_us) : -1,
     };
     choice->step = frame_clock_step(&choice->clock, can, &blank);

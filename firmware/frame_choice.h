@@ -12,8 +12,10 @@
 #include "firmware/pose_for_frame.h"
 #include "firmware/pose_from_can.h"
 #include "hal/hal_camera.h"
+#include "hal/hal_gpio.h"
 
 enum {
+    FRAME_CHOICE_HOUSE_US = 200000, /**< without an edge for so long there is no house signal */
     FRAME_CHOICE_TIME_US =
         250, /**< bus time must be right to this: of one picture two boards then say nearly the same */
     FRAME_CHOICE_EDGE_US = 500 /**< a picture captured so near to the limit may be another board's next one */
@@ -35,6 +37,8 @@ typedef struct {
     int32_t hidden_px;        /**< rows of every picture that hold the tag, and are not shown; 0 without tags */
     kept_picture_t now, next; /**< shown now; captured, but not due yet */
     int64_t interval_us;      /**< between the newest two pictures; 0: unknown */
+    bool house_any;           /**< an edge of the house signal has come: */
+    int64_t house_us;         /**< the newest, on the board's clock */
 
     frame_step_t step;      /**< this refresh */
     bool picture_certain;   /**< `now` is certain to be every board's picture */
@@ -63,6 +67,9 @@ void frame_choice_keep(frame_choice_t *choice, const hal_camera_frame_t *frame, 
 
 /** @return Is there room for another picture? */
 bool frame_choice_wants_picture(const frame_choice_t *choice);
+
+/** Take the edges of the house signal that have come. Only the newest counts. @return false when the line fails. */
+bool frame_choice_take_edges(frame_choice_t *choice, hal_gpio_t *gpio);
 
 /**
  * Number this refresh, and choose for it. To be called once a blank, after the bus and the camera were read.

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same frame on all walls: who leads, and what is announced.
+// The same frame on all walls: what is heard, and what it says of a refresh.
 #include "firmware/frame_clock.h"
 
-enum {
-    OFF_MEMORY = 64,
-    LAG_MOST_US = 65528,
-    OWN_LATE_US = 100000,
-    OWN_RUN_US = 150000,
-    STALE_REFRESHES = 12,
-    PERIOD_MOST_US = UINT16_MAX /* a phase is sent in 16 bits */
-};
+#include "firmware/frame_lead.h"
+
+enum { OWN_RUN_US = 150000, STALE_REFRESHES = 12 };
 
 void frame_clock_init(frame_clock_t *clock, uint8_t node, frame_rate_t rate, int32_t pose_delay_us, int64_t now_us)
 {
@@ -54,7 +49,7 @@ static bool is_newer(const frame_epoch_t *a, const frame_epoch_t *b)
     return !b->any || (ahead > 0 && ahead < CAN_EPOCHS / 2);
 }
 
-static void follow(frame_clock_t *clock, uint8_t leader)
+void frame_clock_follow(frame_clock_t *clock, uint8_t leader)
 {
     if (clock->leader != leader)
         clock->next.any = false; /* the old leader's change is off */
@@ -80,9 +75,9 @@ static bool is_silent(const frame_clock_t *clock, int64_t now_us)
 static void hear_own(frame_clock_t *clock, const can_frame_clock_t *heard, int64_t now_us)
 {
     const uint8_t newest = (uint8_t)((clock->counter + CAN_E2E_P01_COUNTERS - 1) % CAN_E2E_P01_COUNTERS);
-    if (!clock->leading || heard->counter != newest || now_us - clock->sent_us > OWN_LATE_US)
+    if (!clock->leading || heard->counter != newest || now_us - clock->sent_us > FRAME_LEAD_OWN_LATE_US)
         return;
-    if (now_us - clock->own_us > OWN_LATE_US)
+    if (now_us - clock->own_us > FRAME_LEAD_OWN_LATE_US)
         clock->own_since_us = now_us;
     clock->own_us = now_us;
     if (now_us - clock->own_since_us < OWN_RUN_US)
@@ -152,113 +147,9 @@ can_check_t frame_clock_hear(frame_clock_t *clock, const hal_can_frame_t *frame,
     }
     if (!is_better(clock, &heard, &epoch, now_us))
         return CAN_CHECK_OK;
-    follow(clock, heard.node);
+    frame_clock_follow(clock, heard.node);
     obey(clock, &epoch, &heard, now_us);
     return CAN_CHECK_OK;
-}
-
-/* As it is sent. */
-static int32_t lag_from_age(int32_t age_us)
-{
-    const int32_t lag_us = age_us > LAG_MOST_US ? LAG_MOST_US : age_us;
-    return lag_us > 0 ? lag_us & ~7 : 0;
-}
-
-/* Lead from now on; with the epoch that is known, or the first one. */
-static void begin_to_lead(frame_clock_t *clock, const frame_blank_t *blank)
-{
-    follow(clock, clock->node);
-    clock->led_since_us = blank->now_us;
-    clock->own_us = blank->now_us - OWN_LATE_US - 1;
-    clock->off_q8 = clock->off_count = clock->lag_wrong = 0;
-    if (clock->now.any)
-        return;
-    const int64_t before = frame_rate_before(clock->rate, blank->blank_us);
-    clock->now = (frame_epoch_t){
-        .any = true,
-        .from = before,
-        .phase_us = (int32_t)(blank->blank_us - frame_rate_length_us(clock->rate, before)),
-        .lag_us = lag_from_age(blank->picture_age_us),
-    };
-}
-
-static void propose(frame_clock_t *clock, const frame_step_t *step, int32_t phase_us, int32_t lag_us)
-{
-    const int32_t period_us = frame_rate_period_us(clock->rate);
-    frame_epoch_t next = {
-        .any = true,
-        .number = (uint8_t)((clock->now.number + 1) % CAN_EPOCHS),
-        .from = step->number + FRAME_CLOCK_AHEAD_US / period_us + 1,
-        .phase_us = phase_us,
-        .lag_us = lag_from_age(lag_us),
-    };
-    /* What is a whole period off is the neighbour's number. */
-    if (next.phase_us < 0)
-        next.phase_us += period_us;
-    if (next.phase_us >= period_us)
-        next.phase_us -= period_us;
-    clock->next = next;
-    clock->off_q8 = clock->off_count = clock->lag_wrong = 0;
-}
-
-/* The leader's panel and camera are what the room goes by. */
-static void watch(frame_clock_t *clock, const frame_step_t *step, const frame_blank_t *blank)
-{
-    const int32_t quarter_us = frame_rate_period_us(clock->rate) / 4;
-    clock->off_count += clock->off_count < OFF_MEMORY;
-    clock->off_q8 += (step->off_us * 256 - clock->off_q8) / clock->off_count;
-    const int32_t wrong_us = blank->picture_age_us - clock->now.lag_us;
-    const bool lag_is_wrong = blank->picture_age_us >= 0 && (wrong_us > quarter_us || wrong_us < -quarter_us) &&
-                              clock->now.lag_us < LAG_MOST_US;
-    clock->lag_wrong = lag_is_wrong ? clock->lag_wrong + 1 : 0;
-    const int32_t off_us = clock->off_q8 / 256;
-    const bool drifted =
-        clock->off_count == OFF_MEMORY && (off_us > FRAME_CLOCK_DRIFT_US || off_us < -FRAME_CLOCK_DRIFT_US);
-    /* Who is not heard must change nothing: the others may be led by somebody else by now. */
-    if (clock->next.any || !clock->proven || blank->now_us - clock->proven_us > OWN_LATE_US ||
-        blank->now_us - clock->led_since_us < FRAME_CLOCK_AHEAD_US)
-        return;
-    if (clock->lag_wrong >= FRAME_CLOCK_LAG_REFRESHES)
-        propose(clock, step, clock->now.phase_us + off_us, blank->picture_age_us);
-    else if (drifted)
-        propose(clock, step, clock->now.phase_us + off_us, clock->now.lag_us);
-}
-
-/* @return Is it on its way? What does not get out proves nothing. */
-static bool send(frame_clock_t *clock, hal_can_t *can, const frame_epoch_t *epoch, int64_t from)
-{
-    const bool to_come = epoch == &clock->next;
-    const can_frame_clock_t message = {
-        .node = clock->node,
-        .counter = clock->counter,
-        .epoch = epoch->number,
-        .from = (uint16_t)from,
-        .phase_us = (uint16_t)epoch->phase_us,
-        .lag_us = (uint16_t)epoch->lag_us,
-        .sure = clock->proven,
-        .to_come = to_come,
-        .changes = clock->next.any,
-    };
-    hal_can_frame_t frame;
-    if (!can_frame_clock_encode(&frame, &message))
-        return false;
-    frame.own = true;
-    if (hal_can_send(can, &frame) != HAL_OK)
-        return false;
-    clock->counter = (uint8_t)((clock->counter + 1) % CAN_E2E_P01_COUNTERS);
-    return true;
-}
-
-static void announce(frame_clock_t *clock, hal_can_t *can, int64_t number, int64_t now_us)
-{
-    if (now_us < clock->due_us)
-        return;
-    if (clock->next.any && !send(clock, can, &clock->next, clock->next.from))
-        return;
-    if (!send(clock, can, &clock->now, number - 2)) /* whoever hears it is past that */
-        return;
-    clock->sent_us = now_us;
-    clock->due_us = now_us + CAN_FRAME_CLOCK_PERIOD_MS * 1000;
 }
 
 /* The refresh of the epoch that holds for it. */
@@ -284,35 +175,13 @@ static frame_step_t find_step(frame_clock_t *clock, const frame_blank_t *blank)
     };
 }
 
-/* Does nothing of what this leader says get out? Then somebody else may lead by now. */
-static bool is_unheard(const frame_clock_t *clock, int64_t now_us)
-{
-    const int64_t heard_us = clock->own_us > clock->led_since_us ? clock->own_us : clock->led_since_us;
-    return now_us - heard_us >= FRAME_CLOCK_SILENT_US;
-}
-
-static void cease_to_lead(frame_clock_t *clock, int64_t now_us)
-{
-    clock->leading = false;
-    clock->leader = 0;
-    clock->next.any = false;
-    clock->quiet_since_us = now_us;
-}
-
 frame_step_t frame_clock_step(frame_clock_t *clock, hal_can_t *can, const frame_blank_t *blank)
 {
     clock->proven = is_proven(clock, blank->now_us);
-    const int64_t patience_us = FRAME_CLOCK_SILENT_US + (int64_t)clock->node * FRAME_CLOCK_TURN_US;
-    if (clock->leading && (!blank->bus_time_known || is_unheard(clock, blank->now_us)))
-        cease_to_lead(clock, blank->now_us);
-    else if (!clock->leading && blank->bus_time_known && frame_rate_period_us(clock->rate) <= PERIOD_MOST_US &&
-             blank->now_us - clock->quiet_since_us >= patience_us)
-        begin_to_lead(clock, blank);
+    frame_lead_decide(clock, blank);
     frame_step_t step = find_step(clock, blank);
-    if (clock->leading) {
-        watch(clock, &step, blank);
-        announce(clock, can, step.number, blank->now_us);
-    }
+    if (clock->leading)
+        frame_lead(clock, can, &step, blank);
     const int32_t quarter_us = frame_rate_period_us(clock->rate) / 4;
     step.in_step = clock->now.any && clock->proven && blank->bus_time_known && step.off_us < quarter_us &&
                    step.off_us > -quarter_us;

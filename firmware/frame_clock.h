@@ -16,6 +16,8 @@
 // FRAME_CLOCK_PROOF_US, whose own announcements do not get out, or whose panel is more than a quarter of a period off,
 // is not in step, and says so.
 //
+// Where the leader has a house signal (genlock), refreshes begin at its edges; else at the leader's own blanks.
+//
 // When nobody has led for FRAME_CLOCK_SILENT_US and FRAME_CLOCK_TURN_US times its own number, a board begins to, with
 // the epoch that it knows: no number changes. Of two leaders the one stays that has a change under way, else the one
 // with the lower number; a change that was announced by a leader who goes is off. A leader that comes back after
@@ -86,6 +88,8 @@ typedef struct {
     int64_t now_us;         /**< on the board's clock */
     int64_t blank_us;       /**< bus time of the blank */
     bool bus_time_known;    /**< else the board neither leads nor is in step */
+    bool genlocked;         /**< a house signal is there: */
+    int64_t house_us;       /**< bus time of its newest edge, the begin of a frame */
     int32_t picture_age_us; /**< the blank less the capture of the newest picture; < 0: there is none */
 } frame_blank_t;
 

@@ -236,6 +236,7 @@ void projector_step(projector_t *p)
     bus_receive(&receivers, p->board.can);           /* bus -> checked poses, bus time, numbers of refreshes */
     bus_master_step(&p->time, p->board.can, now_us); /* bus time -> bus, when it is this board's turn */
     take_newest_picture(p, now_us);                  /* camera -> newest picture, or the last good one */
+    p->faults.gpio += !frame_choice_take_edges(&p->choice, p->board.gpio);
     frame_choice_step(&p->choice, &p->poses, &p->time, p->board.can, p->board.camera, newest_blank_us(p));
     p->report.state = state_now(p, now_us);
     const int64_t posed_us = end_stage(p, STAGE_POSE, now_us);

@@ -29,7 +29,8 @@ typedef struct {
     rng_t rng;
     int32_t drift_ppm; /* of all panels, which are genlocked */
     int32_t loss_ppm;
-    int32_t lag_us; /* of the video: capture of the newest picture to the blank */
+    int32_t lag_us;       /* of the video: capture of the newest picture to the blank */
+    int32_t house_off_us; /* edges of a house signal after the blanks; 0: there is none */
     int64_t refresh;
     int64_t blank_us; /* bus time of the newest */
 } room_t;
@@ -85,6 +86,8 @@ static void refresh(room_t *room)
         const frame_blank_t blank = {.now_us = room->blank_us + board->offset_us,
                                      .blank_us = room->blank_us + board->bus_error_us,
                                      .bus_time_known = true,
+                                     .genlocked = room->house_off_us != 0,
+                                     .house_us = room->blank_us + room->house_off_us,
                                      .picture_age_us = room->lag_us + (int32_t)board->bus_error_us};
         board->step = frame_clock_step(&board->clock, board, &blank);
     }
@@ -279,6 +282,19 @@ static void test_panel_that_is_off_says_so(void **state)
     assert_false(frame_clock_step(&board->clock, board, &blank).in_step);
 }
 
+/* With a house signal at the leader, refreshes begin at its edges, whatever the leader's own panel does. */
+static void test_house_signal_is_followed(void **state)
+{
+    (void)state;
+    for (int off_us = -3000; off_us <= 3000; off_us += 1500) {
+        room_t *room = new_room(17, rate_60);
+        room->house_off_us = off_us;
+        (void)run(room, 600);
+        assert_int_equal(run(room, 60), BOARDS);
+        assert_in_range(room->board[4].step.off_us + off_us + 1000, 1000 - 450, 1000 + 450);
+    }
+}
+
 static void test_messages(void **state)
 {
     (void)state;
@@ -314,15 +330,11 @@ static void test_messages(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_boards_come_into_step),
-        cmocka_unit_test(test_times_of_a_refresh),
-        cmocka_unit_test(test_drift_is_followed),
-        cmocka_unit_test(test_video_that_slides_is_followed),
-        cmocka_unit_test(test_leader_goes_and_comes_back),
-        cmocka_unit_test(test_unheard_leader_says_so),
-        cmocka_unit_test(test_who_hears_nothing_says_so),
-        cmocka_unit_test(test_panel_that_is_off_says_so),
-        cmocka_unit_test(test_messages),
+        cmocka_unit_test(test_boards_come_into_step),      cmocka_unit_test(test_times_of_a_refresh),
+        cmocka_unit_test(test_drift_is_followed),          cmocka_unit_test(test_video_that_slides_is_followed),
+        cmocka_unit_test(test_leader_goes_and_comes_back), cmocka_unit_test(test_unheard_leader_says_so),
+        cmocka_unit_test(test_who_hears_nothing_says_so),  cmocka_unit_test(test_panel_that_is_off_says_so),
+        cmocka_unit_test(test_house_signal_is_followed),   cmocka_unit_test(test_messages),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
