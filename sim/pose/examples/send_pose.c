@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The smallest sender of poses: walks round the room once, 240 poses a second. Needs nothing but Linux; take it and
-// change it.
+// The smallest sender of poses and bus time, to take and change: walks round the room once. Needs nothing but Linux.
 //
 // Build: cc -o send_pose send_pose.c -lm
 // Use:   send_pose can0           CAN FD, one frame of 32 bytes a pose
@@ -21,13 +20,20 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { VIEWER = 0, TRACKED = 1, POSES_PER_S = 240, WALK_S = 10, FD_ID = 0x100 + VIEWER, SET_ID = 0x110 + 4 * VIEWER };
+enum { VIEWER = 0, TRACKED = 1, POSES_PER_S = 240, WALK_S = 10, SYNC_US = 125000 };
+enum { SYNC_ID = 0x040, FOLLOW_UP_ID = 0x080, FD_ID = 0x100 + VIEWER, SET_ID = 0x110 + 4 * VIEWER };
 
 typedef struct {
-    double mm[3]; /* the eye, in the tracker's world */
-    double q[4];  /* w, x, y, z: turns camera axes (x right, y down, z forward) into the world's; of length 1 */
-    uint64_t capture_us;
+    double mm[3];        /* the eye, in the tracker's world */
+    double q[4];         /* w, x, y, z: turns camera axes (x right, y down, z forward) into the world's; of length 1 */
+    uint64_t capture_us; /* bus time, which here is CLOCK_MONOTONIC */
 } pose_t;
+
+typedef struct {
+    int can; /* -1: print */
+    uint32_t syncs;
+    uint64_t sync_due_us;
+} sender_t;
 
 static void put(uint8_t *to, int bytes, int64_t value)
 {
@@ -74,6 +80,15 @@ static struct canfd_frame fd_frame(const pose_t *pose, uint32_t number)
     return frame;
 }
 
+/* The last step of a classic frame: its counter with the 4 bits above it, and its CRC. */
+static void seal(struct canfd_frame *frame, int id, uint32_t number, int nibble)
+{
+    frame->can_id = (canid_t)id;
+    frame->len = 8;
+    frame->data[1] = (uint8_t)(number % 15 | (uint32_t)nibble << 4);
+    frame->data[0] = crc_of_classic(id, frame->data);
+}
+
 static int64_t q15(double component)
 {
     const int64_t value = llround(component * 32768);
@@ -92,76 +107,123 @@ static void classic_frames(struct canfd_frame frame[3], const pose_t *pose, uint
     put(frame[1].data + 6, 2, q15(pose->q[0]));
     for (int i = 0; i < 3; i++)
         put(frame[2].data + 2 + 2 * i, 2, q15(pose->q[1 + i]));
-    for (int i = 0; i < 3; i++) {
-        frame[i].can_id = (canid_t)(SET_ID + i);
-        frame[i].len = 8;
-        frame[i].data[1] = (uint8_t)(number % 15 | (uint32_t)nibble[i] << 4);
-        frame[i].data[0] = crc_of_classic(SET_ID + i, frame[i].data);
-    }
+    for (int i = 0; i < 3; i++)
+        seal(&frame[i], SET_ID + i, number, nibble[i]);
 }
 
 /* Once round a circle of 1.5 m in ten seconds, looking at its middle; y is down. */
-static pose_t walk(double seconds, uint64_t now_us)
+static pose_t walk(double seconds, uint64_t capture_us)
 {
     const double turn = 2 * M_PI * seconds / WALK_S;
     return (pose_t){.mm = {1500 * sin(turn), -1700, -1500 * cos(turn)},
                     .q = {cos(turn / 2), 0, -sin(turn / 2), 0},
-                    .capture_us = now_us};
+                    .capture_us = capture_us};
 }
 
-static uint64_t now_us(void)
+static uint64_t now_us(clockid_t clock)
 {
     struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
+    clock_gettime(clock, &now);
     return (uint64_t)now.tv_sec * 1000000 + (uint64_t)now.tv_nsec / 1000;
 }
 
+/* Only Sync is heard on this socket: its own, handed back with the kernel's stamp once the controller has sent it. */
 static int open_can(const char *interface)
 {
     const int can = socket(PF_CAN, SOCK_RAW, CAN_RAW), on = 1;
     const struct sockaddr_can address = {.can_family = AF_CAN, .can_ifindex = (int)if_nametoindex(interface)};
+    const struct can_filter sync = {.can_id = SYNC_ID, .can_mask = CAN_SFF_MASK | CAN_EFF_FLAG | CAN_RTR_FLAG};
     if (can < 0 || address.can_ifindex == 0 || setsockopt(can, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on) != 0 ||
+        setsockopt(can, SOL_CAN_RAW, CAN_RAW_FILTER, &sync, sizeof sync) != 0 ||
+        setsockopt(can, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, &on, sizeof on) != 0 ||
+        setsockopt(can, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on) != 0 ||
         bind(can, (const struct sockaddr *)&address, sizeof address) != 0)
         return -1;
     return can;
 }
 
-static void print(const struct canfd_frame *frame, bool fd, uint64_t time_us)
+/* time_us is only printed. */
+static void send_frame(const sender_t *sender, const struct canfd_frame *frame, bool fd, uint64_t time_us)
 {
-    printf("(%llu.%06llu) can0 %03X#%s", (unsigned long long)(time_us / 1000000),
-           (unsigned long long)(time_us % 1000000), (unsigned)frame->can_id, fd ? "#1" : "");
+    const size_t size = fd ? CANFD_MTU : CAN_MTU;
+    if (sender->can >= 0 && write(sender->can, frame, size) != (ssize_t)size)
+        fprintf(stderr, "send_pose: %s\n", strerror(errno));
+    if (sender->can >= 0)
+        return;
+    printf("(%.6f) can0 %03X#%s", (double)time_us / 1e6, (unsigned)frame->can_id, fd ? "#1" : "");
     for (int i = 0; i < frame->len; i++)
         printf("%02X", (unsigned)frame->data[i]);
     printf("\n");
 }
 
+static void send_follow_up(const sender_t *sender, uint32_t number, uint64_t sent_us)
+{
+    struct canfd_frame follow_up = {.can_id = 0};
+    put(follow_up.data + 2, 6, (int64_t)sent_us);
+    seal(&follow_up, FOLLOW_UP_ID, number, 0);
+    send_frame(sender, &follow_up, false, sent_us);
+}
+
+/* Tell the time of a Sync that is out. The stamp tells the moment of its last bit; a clock that is read before or after
+ * write() is off by what the frame waits for the bus. It is on CLOCK_REALTIME, which may step: only its age is used. */
+static void follow_sync(const sender_t *sender)
+{
+    struct canfd_frame sync;
+    struct timespec stamp;
+    _Alignas(struct cmsghdr) char control[CMSG_SPACE(sizeof stamp)];
+    struct iovec to = {&sync, sizeof sync};
+    struct msghdr got = {.msg_iov = &to, .msg_iovlen = 1, .msg_control = control, .msg_controllen = sizeof control};
+    if (recvmsg(sender->can, &got, MSG_DONTWAIT) <= 0 || (got.msg_flags & MSG_CONFIRM) == 0)
+        return; /* none, or another sender's */
+    const struct cmsghdr *part = CMSG_FIRSTHDR(&got);
+    if (part == NULL || part->cmsg_type != SCM_TIMESTAMPNS)
+        return;
+    memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
+    const uint64_t stamp_us = (uint64_t)stamp.tv_sec * 1000000 + (uint64_t)stamp.tv_nsec / 1000;
+    send_follow_up(sender, sync.data[1], now_us(CLOCK_MONOTONIC) - (now_us(CLOCK_REALTIME) - stamp_us));
+}
+
+/* Sync says nothing but its counter and, by zeros, that bus time is a tracker's. */
+static void give_time(sender_t *sender, uint64_t time_us)
+{
+    struct canfd_frame sync = {.can_id = 0};
+    if (sender->can >= 0)
+        follow_sync(sender);
+    if (time_us < sender->sync_due_us)
+        return;
+    sender->sync_due_us = time_us + SYNC_US;
+    seal(&sync, SYNC_ID, sender->syncs, 0);
+    send_frame(sender, &sync, false, time_us);
+    if (sender->can < 0)
+        send_follow_up(sender, sender->syncs, time_us);
+    sender->syncs++;
+}
+
 int main(int argc, char **argv)
 {
     const bool fd = argc<3, dry = argc> 1 && strcmp(argv[1], "-") == 0;
-    const int can = argc > 1 && !dry ? open_can(argv[1]) : -1;
-    if (argc < 2 || argc > 3 || (!fd && strcmp(argv[2], "classic") != 0) || (!dry && can < 0)) {
+    sender_t sender = {.can = argc > 1 && !dry ? open_can(argv[1]) : -1};
+    if (argc < 2 || argc > 3 || (!fd && strcmp(argv[2], "classic") != 0) || (!dry && sender.can < 0)) {
         fprintf(stderr, "usage: send_pose INTERFACE [classic]: %s\n", errno ? strerror(errno) : "an argument is wrong");
         return 1;
     }
-    const uint64_t start_us = dry ? 1000000 : now_us();
+    const uint64_t start_us = dry ? 1000000 : now_us(CLOCK_MONOTONIC);
     const uint32_t poses = dry ? POSES_PER_S : POSES_PER_S * WALK_S;
     for (uint32_t n = 0; n < poses; n++) {
         const uint64_t due_us = start_us + n * 1000000ULL / POSES_PER_S;
-        while (!dry && now_us() < due_us)
-            usleep(200);
-        const pose_t pose = walk((double)n / POSES_PER_S, dry ? due_us : now_us());
+        uint64_t time_us;
+        do {
+            time_us = dry ? due_us : now_us(CLOCK_MONOTONIC);
+            give_time(&sender, time_us);
+        } while (time_us < due_us && usleep(200) == 0);
+        const pose_t pose = walk((double)n / POSES_PER_S, time_us);
         struct canfd_frame frame[3];
         if (fd)
             frame[0] = fd_frame(&pose, n);
         else
             classic_frames(frame, &pose, n);
-        for (int i = 0; i < (fd ? 1 : 3); i++) {
-            const size_t size = fd ? CANFD_MTU : CAN_MTU;
-            if (dry)
-                print(&frame[i], fd, due_us);
-            else if (write(can, &frame[i], size) != (ssize_t)size)
-                fprintf(stderr, "send_pose: %s\n", strerror(errno));
-        }
+        for (int i = 0; i < (fd ? 1 : 3); i++)
+            send_frame(&sender, &frame[i], fd, time_us);
     }
     return 0;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests of the example sender: what it says it would send is what a board takes, pose by pose.
+// Tests of the example sender: what it says it would send is what a board takes, pose by pose, and knows the time of.
 #include <libgen.h>
 #include <math.h>
 #include <setjmp.h>
@@ -14,7 +14,15 @@
 #include "firmware/pose_from_can.h"
 #include "sim/bus/candump_text.h"
 
-enum { POSES = 240, WALK_S = 10 };
+enum { POSES = 240, WALK_S = 10, START_US = 1000000, PAIRS = 8 };
+
+/* A board that listens. */
+typedef struct {
+    can_poses_t poses;
+    bus_master_t time;
+    can_faults_t faults;
+    int frames, pairs;
+} board_t;
 
 static char *folder; /* of this program, and of the example */
 
@@ -31,30 +39,49 @@ static void assert_on_walk(const can_pose_t *pose, int n, double mm, double comp
     assert_int_equal(pose->quality, CAN_POSE_TRACKED);
 }
 
+/* Its stamps are the lines' times. */
+static void board_hears(board_t *board, const char *line)
+{
+    char interface[CANDUMP_INTERFACE_LENGTH];
+    hal_can_frame_t frame;
+    can_follow_up_t follow_up;
+    assert_null(candump_frame_from_text(&frame, interface, line));
+    if (bus_master_hear(&board->time, &frame) == CAN_CHECK_OTHER)
+        assert_true(pose_from_frame(&board->poses, &board->time, &frame, &board->faults));
+    board->frames++;
+    board->pairs += can_follow_up_decode(&follow_up, &frame) == CAN_CHECK_OK;
+}
+
 static void listen_to(const char *arguments, int parts, double mm, double component)
 {
-    char command[512], line[CANDUMP_TEXT_LENGTH], interface[CANDUMP_INTERFACE_LENGTH];
+    char command[512], line[CANDUMP_TEXT_LENGTH];
+    board_t board = {.poses.viewer = 0};
+    bus_master_init(&board.time, 1, START_US);
     snprintf(command, sizeof command, "'%s/send_pose' %s", folder, arguments);
     FILE *sender = popen(command, "r");
     assert_non_null(sender);
-    can_poses_t poses = {.viewer = 0};
-    can_faults_t faults = {.length = 0};
-    int frames = 0;
-    for (; fgets(line, sizeof line, sender) != NULL; frames++) {
-        hal_can_frame_t frame;
-        assert_null(candump_frame_from_text(&frame, interface, line));
-        assert_true(pose_from_frame(&poses, NULL, &frame, &faults));
-        if (frames % parts < parts - 1)
+    int poses = 0, captured = 0;
+    while (fgets(line, sizeof line, sender) != NULL) {
+        board_hears(&board, line);
+        if (!board.poses.any)
             continue;
-        assert_true(poses.any);
-        assert_on_walk(&poses.newest, frames / parts, mm, component);
-        const int64_t early_us = frame.time_us - (int64_t)poses.newest.capture_time_us;
+        assert_on_walk(&board.poses.newest, poses++, mm, component);
+        const int64_t early_us = board.poses.received_us - (int64_t)board.poses.newest.capture_time_us;
         assert_in_range(early_us, 0, 99); /* sets carry 100 us */
-        poses.any = false;
+        if (board.poses.captured) {
+            assert_in_range(board.poses.received_us - board.poses.captured_us, 0, 101);
+            captured++;
+        }
+        board.poses.any = board.poses.captured = false;
     }
     assert_int_equal(pclose(sender), 0);
-    assert_int_equal(frames, parts * POSES);
-    assert_int_equal(can_faults_total(&faults), 0);
+    assert_int_equal(poses, POSES);
+    assert_int_equal(board.pairs, PAIRS);
+    assert_int_equal(board.frames, parts * POSES + 2 * PAIRS);
+    assert_true(board.time.following && board.time.master == BUS_MASTER_TRACKER);
+    assert_true(board.time.lost == 0 && board.time.mismatched == 0);
+    assert_int_equal(captured, POSES - 5 * POSES / PAIRS); /* bus time is good enough from the sixth pair on */
+    assert_int_equal(can_faults_total(&board.faults), 0);
 }
 
 static void test_fd(void **state)
