@@ -149,6 +149,14 @@ static bool perform_input(socketcand_client_t *client, socketcand_server_stats_t
     return done;
 }
 
+/* Acknowledge what was read at once. A client that did not ask for TCP_NODELAY, as python-can's, holds a small command
+ * back until the one before is acknowledged: up to 40 ms, in which a set of poses would fall apart. */
+static void acknowledge(int socket)
+{
+    const int on = 1;
+    (void)setsockopt(socket, IPPROTO_TCP, TCP_QUICKACK, &on, sizeof on);
+}
+
 static void read_commands(socketcand_client_t *client, socketcand_server_stats_t *stats)
 {
     bool done = perform_input(client, stats);
@@ -157,6 +165,7 @@ static void read_commands(socketcand_client_t *client, socketcand_server_stats_t
                                  SOCKETCAND_INPUT_BYTES - client->input_length, MSG_DONTWAIT);
         if (got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR))
             break;
+        acknowledge(client->socket);
         client->ended = got <= 0;
         client->input_length += got > 0 ? (size_t)got : 0;
         done = perform_input(client, stats);
