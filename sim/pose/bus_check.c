@@ -12,6 +12,7 @@
 
 enum { LEAST_POSES_PER_S = 20, MOST_LOAD_PPM = 700000, US_PER_S = 1000000 };
 enum { NAMES_LENGTH = 256 };
+enum { MOST_TIME_ERROR_US = 1000 };
 enum { HEARTBEAT_GAP_US = 3 * CAN_HEARTBEAT_PERIOD_MS * 1000 / 2 };
 
 /* Where the judgement goes, and how many were bad. */
@@ -75,6 +76,40 @@ static void check_viewer(judge_t *judge, int number, const bus_watch_viewer_t *v
             bus_watch_jitter_us(&viewer->poses) / 1e3, (double)(viewer->most_us - viewer->least_us) / 1e3);
 }
 
+static bool any_captured(const bus_watch_t *watch)
+{
+    bool any = false;
+    for (int v = 0; v < CAN_VIEWERS; v++)
+        any |= watch->viewer[v].captured;
+    return any;
+}
+
+static void check_time(judge_t *judge, const bus_watch_t *watch)
+{
+    const bus_watch_time_t *time = &watch->time;
+    const int before = judge->bad;
+    if (time->pairs.count == 0) {
+        if (any_captured(watch))
+            say(judge, false,
+                "bus time: nobody gives it, so capture times are of no use; send Sync and FollowUp, see BUS.md");
+        return;
+    }
+    if (any_captured(watch) && time->origin != BUS_MASTER_TRACKER)
+        say(judge, false,
+            "bus time: board %u's own clock, so capture times are of no use; the tracker should give it, see BUS.md",
+            (unsigned)time->origin);
+    const int64_t silent_us = watch->last_us - time->pairs.last_us;
+    const int64_t gap_us = silent_us > time->pairs.longest_us ? silent_us : time->pairs.longest_us;
+    if (gap_us > BUS_MASTER_SILENT_US)
+        say(judge, false, "bus time: no Sync and FollowUp for %" PRId64 " ms, expected every %d", gap_us / 1000,
+            CAN_SYNC_PERIOD_MS);
+    if (time->changes > 0)
+        say(judge, false, "bus time: who gives it changed %" PRId64 " times; are there two trackers, or lost frames?",
+            time->changes);
+    if (judge->bad == before)
+        say(judge, true, "bus time: given by number %u, %" PRId64 " pairs", (unsigned)time->master, time->pairs.count);
+}
+
 /* "deadline, camera" */
 static void name_faults(char names[NAMES_LENGTH], uint32_t flags)
 {
@@ -88,7 +123,33 @@ static void name_faults(char names[NAMES_LENGTH], uint32_t flags)
     }
 }
 
-static void check_board(judge_t *judge, int node, const bus_watch_board_t *board, int64_t end_us)
+static void check_board_time(judge_t *judge, int node, const bus_watch_board_t *board)
+{
+    const can_time_t *time = &board->time;
+    if (!board->has_time)
+        return;
+    if (time->state == CAN_TIME_NONE)
+        say(judge, false, "board %d: has no bus time; it takes 4 to 20 s of Sync and FollowUp", node);
+    if (time->state == CAN_TIME_HOLDOVER)
+        say(judge, false, "board %d: does not hear number %u, whose bus time it had; bus-off, or a loose wire?", node,
+            (unsigned)time->master);
+    if (time->state != CAN_TIME_NONE && time->error_us > MOST_TIME_ERROR_US)
+        say(judge, false, "board %d: its bus time may be off by %" PRIu32 " us, expected at most %d", node,
+            time->error_us, MOST_TIME_ERROR_US);
+}
+
+static void check_board_steps(judge_t *judge, int node, const bus_watch_board_t *board, bool expected)
+{
+    if (expected && board->steps == 0)
+        say(judge, false, "board %d: sends no Step, as others do; is its firmware of this version?", node);
+    if (board->in_step < board->steps)
+        say(judge, false,
+            "board %d: in step in %.1f %% of its Steps, expected 100; its bus time, and its panel's refresh rate?",
+            node, 100.0 * (double)board->in_step / (double)board->steps);
+}
+
+/* @param steps  Do boards send Step at all? */
+static void check_board(judge_t *judge, int node, const bus_watch_board_t *board, int64_t end_us, bool steps)
 {
     const int before = judge->bad;
     if (board->heartbeats.count == 0) {
@@ -109,6 +170,8 @@ static void check_board(judge_t *judge, int node, const bus_watch_board_t *board
         name_faults(names, board->heartbeat.fault_flags);
         say(judge, false, "board %d: reports a fault: %s", node, names);
     }
+    check_board_time(judge, node, board);
+    check_board_steps(judge, node, board, steps);
     if (judge->bad == before)
         say(judge, true, "board %d: running, up for %" PRIu32 " s", node, board->heartbeat.uptime_s);
 }
@@ -126,6 +189,29 @@ static void check_bus(judge_t *judge, const bus_watch_t *watch)
         say(judge, true, "%" PRId64 " frames that are none of wallwarp.dbc's", watch->unknown);
 }
 
+/* @return How many boards were heard. */
+static int check_boards(judge_t *judge, const bus_watch_t *watch)
+{
+    int boards = 0, stepping = 0;
+    for (int node = 1; node <= CAN_MAX_NODE; node++)
+        stepping += watch->board[node].steps > 0;
+    for (int node = 1; node <= CAN_MAX_NODE; node++) {
+        if (!bus_watch_heard(&watch->board[node]))
+            continue;
+        check_board(judge, node, &watch->board[node], watch->last_us, stepping > 0);
+        boards++;
+    }
+    if (watch->steps.differing > 0)
+        say(judge, false,
+            "frames: boards in step differed at %" PRId64 " of %" PRId64
+            " refreshes; have they one room file, and one firmware?",
+            watch->steps.differing, watch->steps.compared);
+    else if (stepping > 1)
+        say(judge, watch->steps.compared > 0, "frames: %" PRId64 " refreshes compared%s", watch->steps.compared,
+            watch->steps.compared > 0 ? ", all boards in step showed the same" : "; no two boards were in step");
+    return boards;
+}
+
 int bus_check_print(FILE *file, const bus_watch_t *watch)
 {
     judge_t judge = {.file = file};
@@ -134,20 +220,15 @@ int bus_check_print(FILE *file, const bus_watch_t *watch)
         return judge.bad;
     }
     check_bus(&judge, watch);
-    int viewers = 0, boards = 0;
+    check_time(&judge, watch);
+    int viewers = 0;
     for (int v = 0; v < CAN_VIEWERS; v++) {
         if (!watch->viewer[v].fd && !watch->viewer[v].set)
             continue;
         check_viewer(&judge, v, &watch->viewer[v]);
         viewers++;
     }
-    for (int node = 1; node <= CAN_MAX_NODE; node++) {
-        const bus_watch_board_t *board = &watch->board[node];
-        if (board->heartbeats.count == 0 && !board->has_status && !board->has_quality)
-            continue;
-        check_board(&judge, node, board, watch->last_us);
-        boards++;
-    }
+    const int boards = check_boards(&judge, watch);
     if (viewers == 0)
         say(&judge, false, "no poses: see `wallwarp-pose send --help`");
     if (boards == 0)

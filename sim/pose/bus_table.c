@@ -74,6 +74,70 @@ static void print_board(FILE *file, int node, const bus_watch_board_t *board)
         fprintf(file, "-\n");
 }
 
+static void print_time(FILE *file, const bus_watch_time_t *time)
+{
+    if (time->pairs.count == 0 && time->alone == 0)
+        return;
+    const double mean_us = bus_watch_mean_us(&time->pairs);
+    fprintf(file, "bus time: from ");
+    if (time->pairs.count == 0)
+        fprintf(file, "nobody");
+    else
+        fprintf(file, "%u, begun by %u", (unsigned)time->master, (unsigned)time->origin);
+    fprintf(file, "; %.1f pairs a second, %" PRId64 " Syncs alone, %" PRId64 " changes of who gives it\n",
+            mean_us > 0 ? us_per_s / mean_us : 0, time->alone, time->changes);
+}
+
+static void print_frames(FILE *file, const bus_watch_t *watch)
+{
+    int boards = 0, in_step = 0;
+    for (int node = 1; node <= CAN_MAX_NODE; node++) {
+        boards += watch->board[node].steps > 0;
+        in_step += watch->board[node].steps > 0 && watch->board[node].step.in_step;
+    }
+    if (boards == 0)
+        return;
+    fprintf(file, "frames: ");
+    if (watch->has_frame_clock)
+        fprintf(file, "board %u leads, epoch %u; ", (unsigned)watch->frame_clock.node,
+                (unsigned)watch->frame_clock.epoch);
+    fprintf(file, "%d of %d boards in step; %" PRId64 " refreshes compared, %" PRId64 " differed\n", in_step, boards,
+            watch->steps.compared, watch->steps.differing);
+}
+
+static void print_board_time(FILE *file, int node, const bus_watch_board_t *board)
+{
+    static const char *const state[] = {"none", "own", "locked", "holdover"};
+    const can_time_t *time = &board->time;
+    fprintf(file, "%6d  ", node);
+    if (board->has_time)
+        fprintf(file, "%-8s %5u %8" PRIu32 " %9.2f %5" PRIu32 " %8" PRIu32 "  ", state[time->state],
+                (unsigned)time->master, time->error_us, time->drift_ppb / 1e3, time->lost, time->relocks);
+    else
+        fprintf(file, "%-8s %5s %8s %9s %5s %8s  ", "-", "-", "-", "-", "-", "-");
+    if (board->steps > 0)
+        fprintf(file, "%5.1f %% %8" PRIu32 " %8" PRIu32 "\n", 100.0 * (double)board->in_step / (double)board->steps,
+                board->step.refresh, board->step.picture);
+    else
+        fprintf(file, "%7s %8s %8s\n", "-", "-", "-");
+}
+
+static void print_agreement(FILE *file, const bus_watch_t *watch)
+{
+    bool titled = false;
+    print_time(file, &watch->time);
+    print_frames(file, watch);
+    for (int node = 1; node <= CAN_MAX_NODE; node++) {
+        const bus_watch_board_t *board = &watch->board[node];
+        if (!board->has_time && board->steps == 0)
+            continue;
+        if (!titled)
+            fprintf(file, " board  time      from error_us drift_ppm  lost  relocks  in_step  refresh  picture\n");
+        titled = true;
+        print_board_time(file, node, board);
+    }
+}
+
 void bus_table_print(FILE *file, const char *bus, const bus_watch_t *watch)
 {
     print_bus(file, bus, watch);
@@ -85,7 +149,8 @@ void bus_table_print(FILE *file, const char *bus, const bus_watch_t *watch)
     fprintf(file, " board  state    uptime_s  frame faults  pose  age_ms        k  warp_ms bus_faults  method\n");
     for (int node = 1; node <= CAN_MAX_NODE; node++) {
         const bus_watch_board_t *board = &watch->board[node];
-        if (board->heartbeats.count > 0 || board->has_status || board->has_quality)
+        if (bus_watch_heard(board))
             print_board(file, node, board);
     }
+    print_agreement(file, watch);
 }

@@ -7,7 +7,10 @@
 
 #include "sim/pose/bus_watch.h"
 
-/** Print the bus's line, one line per viewer heard, and one per board heard. Rates and jitter are since the start. */
+/**
+ * Print the bus's line, one line per viewer heard, and one per board heard; then bus time, the refreshes compared, and
+ * a line per board that tells of either. Rates, jitter and counts are since the start.
+ */
 void bus_table_print(FILE *file, const char *bus, const bus_watch_t *watch);
 
 #endif

@@ -77,6 +77,7 @@ static void note_capture(bus_watch_viewer_t *viewer, bool fd)
         forward_us -= wrap_us;
         viewer->captured_back++;
     }
+    viewer->captured |= forward_us != 0;
     viewer->capture_us += forward_us;
     const int64_t delay_us = now_us - viewer->capture_us;
     viewer->least_us = delay_us < viewer->least_us ? delay_us : viewer->least_us;
@@ -107,6 +108,15 @@ static void take_heartbeat(bus_watch_board_t *board, const can_heartbeat_t *hear
     note_event(&board->heartbeats, time_us);
 }
 
+static void take_step(bus_watch_t *watch, const can_step_t *step, int64_t time_us)
+{
+    bus_watch_board_t *board = &watch->board[step->node];
+    board->step = *step;
+    board->steps++;
+    board->in_step += step->in_step;
+    step_watch_take(&watch->steps, step, time_us);
+}
+
 /* @return What the decoders of the boards' reports found. */
 static can_check_t take_report(bus_watch_t *watch, const hal_can_frame_t *frame)
 {
@@ -124,20 +134,59 @@ static can_check_t take_report(bus_watch_t *watch, const hal_can_frame_t *frame)
         watch->board[quality.node].quality = quality;
         watch->board[quality.node].has_quality = true;
     }
-    can_stage_t stage;
     can_time_t time;
-    if (check == CAN_CHECK_OTHER)
-        check = can_stage_decode(&stage, frame);
-    return check == CAN_CHECK_OTHER ? can_time_decode(&time, frame) : check;
+    if (check == CAN_CHECK_OTHER && (check = can_time_decode(&time, frame)) == CAN_CHECK_OK) {
+        watch->board[time.node].time = time;
+        watch->board[time.node].has_time = true;
+    }
+    can_step_t step;
+    if (check == CAN_CHECK_OTHER && (check = can_step_decode(&step, frame)) == CAN_CHECK_OK)
+        take_step(watch, &step, frame->time_us);
+    can_stage_t stage;
+    return check == CAN_CHECK_OTHER ? can_stage_decode(&stage, frame) : check;
 }
 
-/* @return What the decoders of bus time found. */
-static can_check_t take_time(const hal_can_frame_t *frame)
+static void take_sync(bus_watch_time_t *time, const can_sync_t *sync)
+{
+    time->alone += time->awaited[sync->number] != 0;
+    time->awaited[sync->number] = (int8_t)(sync->counter + 1);
+    time->origins[sync->number] = sync->origin;
+}
+
+static void take_follow_up(bus_watch_time_t *time, const can_follow_up_t *follow_up, int64_t time_us)
+{
+    const uint8_t number = follow_up->number;
+    if (time->awaited[number] != follow_up->counter + 1)
+        return;
+    time->awaited[number] = 0;
+    time->changes += time->pairs.count > 0 && time->master != number;
+    time->master = number;
+    time->origin = time->origins[number];
+    note_event(&time->pairs, time_us);
+}
+
+/* @return What the decoders of bus time and of the numbers of refreshes found. */
+static can_check_t take_time(bus_watch_t *watch, const hal_can_frame_t *frame)
 {
     can_sync_t sync;
+    can_check_t check = can_sync_decode(&sync, frame);
+    if (check == CAN_CHECK_OK)
+        take_sync(&watch->time, &sync);
     can_follow_up_t follow_up;
-    const can_check_t check = can_sync_decode(&sync, frame);
-    return check == CAN_CHECK_OTHER ? can_follow_up_decode(&follow_up, frame) : check;
+    if (check == CAN_CHECK_OTHER && (check = can_follow_up_decode(&follow_up, frame)) == CAN_CHECK_OK)
+        take_follow_up(&watch->time, &follow_up, frame->time_us);
+    can_frame_clock_t clock;
+    if (check == CAN_CHECK_OTHER && (check = can_frame_clock_decode(&clock, frame)) == CAN_CHECK_OK && !clock.to_come) {
+        watch->frame_clock = clock;
+        watch->has_frame_clock = true;
+    }
+    return check;
+}
+
+bool bus_watch_heard(const bus_watch_board_t *board)
+{
+    return board->heartbeats.count > 0 || board->has_status || board->has_quality || board->has_time ||
+           board->steps > 0;
 }
 
 void bus_watch_take(bus_watch_t *watch, const hal_can_frame_t *frame)
@@ -152,7 +201,7 @@ void bus_watch_take(bus_watch_t *watch, const hal_can_frame_t *frame)
             return;
     can_check_t check = take_report(watch, frame);
     if (check == CAN_CHECK_OTHER)
-        check = take_time(frame);
+        check = take_time(watch, frame);
     watch->unknown += check == CAN_CHECK_OTHER;
     watch->damaged += check != CAN_CHECK_OTHER && check != CAN_CHECK_OK;
 }

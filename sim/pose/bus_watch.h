@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks at the frames of a bus as they come: poses, boards, load; for `wallwarp-pose monitor` and `check`.
+// Looks at the frames of a bus as they come: poses, time, boards, load; for `wallwarp-pose monitor` and `check`.
 #ifndef SIM_POSE_BUS_WATCH_H
 #define SIM_POSE_BUS_WATCH_H
 
@@ -8,6 +8,7 @@
 
 #include "firmware/can_protocol.h"
 #include "firmware/pose_from_can.h"
+#include "sim/pose/step_watch.h"
 
 enum { BUS_WATCH_WINDOW_US = 1000000 };
 
@@ -27,6 +28,7 @@ typedef struct {
     bool fd, set;              /**< which messages were heard */
     int64_t capture_us;        /**< of the newest pose, on the tracker's clock, unwrapped from the first one on */
     int64_t captured_back;     /**< poses captured before the one ahead of them */
+    bool captured;             /**< capture times differ: the tracker gives them */
     int64_t least_us, most_us; /**< arrival minus capture; their difference is the delay's jitter */
 } bus_watch_viewer_t;
 
@@ -38,7 +40,21 @@ typedef struct {
     can_status_t status;
     can_quality_t quality;
     int64_t restarts; /**< times its uptime went back */
+    bool has_time;
+    can_time_t time;        /**< the newest, */
+    can_step_t step;        /**< and of these: unspecified while steps is 0 */
+    int64_t steps, in_step; /**< Steps, and those of them that say so */
 } bus_watch_board_t;
+
+/** The pairs of Sync and FollowUp. */
+typedef struct {
+    bus_watch_rhythm_t pairs; /**< whole ones */
+    uint8_t master, origin;   /**< of the newest; unspecified while pairs.count is 0 */
+    int64_t changes;          /**< of the master */
+    int64_t alone;            /**< Syncs without FollowUp, those of boards that are about to take over among them */
+    uint8_t origins[CAN_MAX_NODE + 1]; /**< the watch's own: of each number's newest Sync, */
+    int8_t awaited[CAN_MAX_NODE + 1];  /**< and one more than its counter as long as it is alone */
+} bus_watch_time_t;
 
 /** All zero but for the bit rates is a watch that has heard nothing; see bus_watch_init(). */
 typedef struct {
@@ -53,6 +69,10 @@ typedef struct {
     int64_t window_start_us;
     int32_t load_ppm, worst_load_ppm; /**< of the last whole window, of the fullest one; -1: none is whole yet */
     bus_watch_viewer_t viewer[CAN_VIEWERS];
+    bus_watch_time_t time;
+    step_watch_t steps;
+    bool has_frame_clock;
+    can_frame_clock_t frame_clock;             /**< the newest that holds */
     bus_watch_board_t board[CAN_MAX_NODE + 1]; /**< by node number */
 } bus_watch_t;
 
@@ -61,6 +81,9 @@ void bus_watch_init(bus_watch_t *watch, int32_t bitrate, int32_t data_bitrate);
 
 /** Take a frame; times never go back by more than the bus's jitter. */
 void bus_watch_take(bus_watch_t *watch, const hal_can_frame_t *frame);
+
+/** @return Has the board sent anything? */
+bool bus_watch_heard(const bus_watch_board_t *board);
 
 /** @return Mean interval, us; 0 with fewer than two events. */
 double bus_watch_mean_us(const bus_watch_rhythm_t *rhythm);

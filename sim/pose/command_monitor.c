@@ -121,10 +121,12 @@ int command_monitor(int argc, char **argv)
     static const struct argp argp = {
         .options = option_table,
         .parser = parse,
-        .doc = "Show what is on a bus: poses, their rate, jitter and losses, the boards, the load.\v"
+        .doc = "Show what is on a bus: poses, their rate, jitter and losses, bus time, the boards, the load.\v"
                "On a terminal the table is renewed in place, else a new one is printed every second. lost, crc, "
                "repeat, bad and not_seen are a board's own counts of a viewer's poses: lost on the way, damaged, "
-               "repeated or stale, impossible or incomplete, and those in which the tracker does not see the viewer.",
+               "repeated or stale, impossible or incomplete, and those in which the tracker does not see the viewer. "
+               "in_step is the share of refreshes at which a board was certain to show what all do; those that two "
+               "boards in step, or more, told of are compared, and differed must stay 0.",
     };
     static view_t view;
     const options_t options = read_options(&argp, argc, argv);

@@ -63,6 +63,18 @@ static void send_pose(scene_t *scene, int n)
     }
 }
 
+static void send_bus_time(scene_t *scene, int n)
+{
+    hal_can_frame_t frame;
+    const uint8_t counter = (uint8_t)(n / 30 % CAN_E2E_P01_COUNTERS);
+    if (n % 30 != 0)
+        return;
+    assert_true(can_sync_encode(&frame, &(can_sync_t){.counter = counter}));
+    send(scene, frame, pose_time_us(n) + 1600);
+    assert_true(can_follow_up_encode(&frame, &(can_follow_up_t){.counter = counter}));
+    send(scene, frame, pose_time_us(n) + 1900);
+}
+
 static void send_reports(scene_t *scene, int n)
 {
     hal_can_frame_t frame;
@@ -90,6 +102,7 @@ static void play(scene_t *scene)
         if (n == scene->repeat)
             send_pose(scene, n);
         send_reports(scene, n);
+        send_bus_time(scene, n);
     }
 }
 
@@ -157,7 +170,7 @@ static void test_full_bus_is_said(void **state)
     play(&s);
     for (int i = 0; i < 8000; i++)
         send(&s, (hal_can_frame_t){.id = 1, .length = 8, .data = {0x55}}, pose_time_us(LENGTH_S * RATE) + 250 * i);
-    char *text = judged(&s, 2); /* and the board was silent */
+    char *text = judged(&s, 3); /* and the board was silent, and bus time */
     assert_non_null(strstr(text, "above 70 % poses come late"));
     free(text);
 }
@@ -225,8 +238,9 @@ static void test_each_fault_of_a_board_is_said(void **state)
     s = scene();
     play(&s);
     send(&s, (hal_can_frame_t){.id = CAN_ID_STATUS + NODE, .length = 8}, pose_time_us(LENGTH_S * RATE) + 2000000);
-    assert_said(&s, 2, "BAD  board 7: no heartbeat for 1999 ms");
-    assert_said(&s, 2, "BAD  1 damaged reports");
+    assert_said(&s, 3, "BAD  board 7: no heartbeat for 1999 ms");
+    assert_said(&s, 3, "BAD  bus time: no Sync and FollowUp for 1998 ms, expected every 125");
+    assert_said(&s, 3, "BAD  1 damaged reports");
 }
 
 static void test_silence_and_strangers(void **state)
