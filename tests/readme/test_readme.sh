@@ -28,14 +28,16 @@ while IFS= read -r line; do
     esac
 done <README.md
 
-# Every file that it links to is there.
-while read -r link; do
-    if [ -e "$link" ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED  link to $link"
-    fi
-done < <(grep -o '](\([^)#]*\))' README.md | tr -d '()]' | grep -v '^http' | sort -u)
+# Every file that it and the firmware's pages link to is there.
+for page in README.md firmware/*.md; do
+    while read -r link; do
+        if [ -e "$(dirname "$page")/$link" ]; then
+            passed=$((passed + 1))
+        else
+            failed=$((failed + 1))
+            echo "FAILED  $page: link to $link"
+        fi
+    done < <(grep -o '](\([^)#]*\))' "$page" | tr -d '()]' | grep -v '^http' | sort -u)
+done
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]
