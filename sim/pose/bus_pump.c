@@ -7,7 +7,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "firmware/can_protocol.h"
+#include "firmware/can_frame_clock.h"
 #include "sim/bus/candump_text.h"
 #include "sim/devices/sim_clock.h"
 #include "sim/files/file_io.h"
@@ -89,11 +89,13 @@ static bool put_pending(work_t *work, const hal_can_frame_t *frame, int64_t due_
     return true;
 }
 
-/* What nodes on the bus send themselves: reports, and bus time, which would be that of another day. */
+/* What nodes on the bus send themselves: reports, bus time and numbers of refreshes, which would be those of another
+ * day. */
 static bool is_left_out(const hal_can_frame_t *frame)
 {
     const bool is_time = frame->id >= CAN_ID_SYNC && frame->id <= CAN_ID_FOLLOW_UP + CAN_MAX_NODE;
-    return !frame->extended && (frame->id >= CAN_ID_STATUS || is_time);
+    const bool is_clock = frame->id >= CAN_ID_FRAME_CLOCK && frame->id <= CAN_ID_FRAME_CLOCK + CAN_MAX_NODE;
+    return !frame->extended && (frame->id >= CAN_ID_STATUS || is_time || is_clock);
 }
 
 static bool take(work_t *work, hal_can_frame_t *frame, int64_t due_us, char error[BUS_PUMP_MESSAGE_LENGTH])

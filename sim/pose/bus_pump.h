@@ -47,7 +47,7 @@ typedef struct {
     const char *from; /**< another bus; NULL: log */
     double speed;     /**< of a log: 2 sends it in half of its time; above 0 */
     bool fd;          /**< CAN FD frames are sent too; else they are left out */
-    bool reports;     /**< boards' reports and bus time are sent too; else they are left out */
+    bool reports;     /**< what boards say and bus time are sent too; else they are left out */
     bus_faults_t faults;
     uint64_t seed;                     /**< of the faults */
     const volatile sig_atomic_t *stop; /**< ends it when it becomes non-zero; looked at every 100 ms */

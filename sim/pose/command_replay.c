@@ -159,8 +159,7 @@ int command_replay(int argc, char **argv)
         {"bus", 'b', "BUS", 0, command_bus_help, 0},
         {"speed", KEY_SPEED, "X", 0, "X times as fast as it was recorded (1)", 0},
         {"fd", KEY_FD, NULL, 0, "Send CAN FD frames too; not to HOST:PORT", 0},
-        {"all", KEY_ALL, NULL, 0, "Send bus time and the boards' reports too, which boards on the bus send themselves",
-         0},
+        {"all", KEY_ALL, NULL, 0, "Send bus time and what boards say too, which boards on the bus send themselves", 0},
         {0},
     };
     static const struct argp argp = {
@@ -206,8 +205,7 @@ int command_fault(int argc, char **argv)
         {"bus-off", KEY_BUS_OFF, NULL, 0, "On a virtual interface (vcan): tell all listeners that they are bus-off", 2},
         {"speed", KEY_SPEED, "X", 0, "LOG: X times as fast as it was recorded (1)", 3},
         {"fd", KEY_FD, NULL, 0, "Send CAN FD frames too; not to HOST:PORT", 3},
-        {"all", KEY_ALL, NULL, 0, "Send bus time and the boards' reports too, which boards on the bus send themselves",
-         3},
+        {"all", KEY_ALL, NULL, 0, "Send bus time and what boards say too, which boards on the bus send themselves", 3},
         {0},
     };
     static const struct argp argp = {

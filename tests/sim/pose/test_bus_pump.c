@@ -74,12 +74,12 @@ static void close_room(room_t *room)
     sim_bus_destroy(room->bus);
 }
 
-/* Frame n of the log: every fifth is a board's report or bus time, every seventh an FD frame; two share each time. */
+/* Frame n of the log: every fifth is a report, bus time or FrameClock, every seventh an FD frame; two share each time. */
 static hal_can_frame_t frame_of_log(int n)
 {
-    static const uint32_t OTHERS[] = {0x701, 0x040, 0x0BF};
+    static const uint32_t OTHERS[] = {0x701, 0x040, 0x0BF, 0x17F};
     hal_can_frame_t frame = {.time_us = 77000000 + (int64_t)(n / 2) * 8000,
-                             .id = n % 5 == 4 ? OTHERS[n / 5 % 3] : 0x110,
+                             .id = n % 5 == 4 ? OTHERS[n / 5 % 4] : 0x110,
                              .fd = n % 7 == 6,
                              .length = 8,
                              .data = {(uint8_t)n, 1, 2, 3, 4, 5, 6, 7}};
