@@ -20,8 +20,9 @@ static void take(const bus_receivers_t *to, const hal_can_frame_t *frame)
         check =
             frame_clock_hear(to->clock, frame, frame->time_us, bus_time_from_local(&to->time->time, frame->time_us));
     can_faults_count(to->faults, check);
-    if (check == CAN_CHECK_OTHER)
-        (void)pose_from_frame(to->poses, to->time, frame, to->faults);
+    if (check != CAN_CHECK_OTHER || pose_from_frame(to->poses, to->time, frame, to->faults) || to->commands == NULL)
+        return;
+    (void)isotp_take(to->commands, frame, frame->time_us);
 }
 
 void bus_receive(const bus_receivers_t *to, hal_can_t *can)

@@ -5,6 +5,7 @@
 
 #include "firmware/bus_master.h"
 #include "firmware/frame_clock.h"
+#include "firmware/isotp.h"
 #include "firmware/pose_from_can.h"
 #include "hal/hal_can.h"
 
@@ -15,6 +16,7 @@ typedef struct {
     can_poses_t *poses;
     bus_master_t *time;   /**< NULL: Sync and FollowUp are ignored */
     frame_clock_t *clock; /**< NULL: FrameClock is ignored; else time is not NULL */
+    isotp_t *commands;    /**< NULL: requests are ignored */
     can_faults_t *faults; /**< counted up */
 } bus_receivers_t;
 

@@ -138,7 +138,10 @@ typedef enum {
     CAN_BOARD_RUNNING = 1,
     CAN_BOARD_HOLDING = 2, /**< poses have stopped; the wall keeps the last one for a while */
     CAN_BOARD_SAFE = 3,    /**< poses have been away for long: the safe picture is on */
-    CAN_BOARD_FAULT = 4    /**< something of the board itself has failed, see the fault flags */
+    CAN_BOARD_FAULT = 4,   /**< something of the board itself has failed, see the fault flags */
+    CAN_BOARD_FROZEN = 5,  /**< an operator has stopped the picture: the wall keeps its last one */
+    CAN_BOARD_PATTERN = 6, /**< an operator wants a picture for setting up the projector */
+    CAN_BOARD_STATES
 } can_board_state_t;
 
 /** Faults of the board: the camera's as it is at the moment of sending, the others since the last heartbeat. Bits are

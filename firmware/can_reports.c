@@ -40,7 +40,7 @@ static can_check_t check_report(const hal_can_frame_t *frame, uint32_t base)
 
 bool can_heartbeat_encode(hal_can_frame_t *frame, const can_heartbeat_t *heartbeat)
 {
-    if (!header_fits(heartbeat->node, heartbeat->counter) || (unsigned)heartbeat->state > CAN_BOARD_FAULT ||
+    if (!header_fits(heartbeat->node, heartbeat->counter) || (unsigned)heartbeat->state >= CAN_BOARD_STATES ||
         heartbeat->fault_flags > UINT16_MAX)
         return false;
     *frame = can_classic_frame(CAN_ID_HEARTBEAT + (uint32_t)heartbeat->node, heartbeat->counter);
@@ -58,7 +58,7 @@ can_check_t can_heartbeat_decode(can_heartbeat_t *heartbeat, const hal_can_frame
     if (check != CAN_CHECK_OK)
         return check;
     const uint32_t state = can_field_get(frame, HEARTBEAT_STATE);
-    if (state > CAN_BOARD_FAULT)
+    if (state >= CAN_BOARD_STATES)
         return CAN_CHECK_VALUE;
     *heartbeat = (can_heartbeat_t){
         .node = (uint8_t)(frame->id - CAN_ID_HEARTBEAT),

@@ -110,3 +110,23 @@ command_result_t command_decode(command_t *command, const uint8_t *bytes, int le
         *command = read;
     return result;
 }
+
+uint8_t command_argument(const command_t *command)
+{
+    const warp_method_t *method = command->method;
+    switch (command->kind) {
+    case COMMAND_METHOD:
+        return (uint8_t)(method == NULL ? COMMAND_ROOM_METHOD : 16 * (int)method->filter + (int)method->resampler);
+    case COMMAND_FREEZE:
+        return command->freeze;
+    case COMMAND_PATTERN:
+        return (uint8_t)command->pattern;
+    case COMMAND_LATENCY:
+        return (uint8_t)(command->latency_us / 1000);
+    case COMMAND_HELLO:
+    case COMMAND_REBOOT:
+    case COMMAND_LOG:
+        break;
+    }
+    return 0;
+}

@@ -10,7 +10,7 @@
 // | 2 method: name as text, "" = room's |                                                                |
 // | 3 freeze: 1 or 0                   |                                                                |
 // | 4 pattern: command_pattern_t       |                                                                |
-// | 5 latency: us (4), 0 = least       |                                                                |
+// | 5 latency: us (4), 0 = least       | us that is wanted from now on (4)                              |
 // | 6 reboot: the text "reboot"        |                                                                |
 // | 7 log: first event (4)             | first event (4), then EVENT_BYTES for each, up to 50           |
 #ifndef FIRMWARE_COMMAND_H
@@ -22,12 +22,14 @@
 #include "warp_fixed/method.h"
 
 enum {
-    CAN_ID_COMMAND = 0x600, /**< + node: ISO-TP frames to a board */
-    CAN_ID_REPLY = 0x640,   /**< + node: and from it */
-    COMMAND_MAX_BYTES = 64, /**< of a request */
+    CAN_ID_COMMAND = 0x600,   /**< + node: ISO-TP frames to a board */
+    CAN_ID_REPLY = 0x640,     /**< + node: and from it */
+    COMMAND_MAX_BYTES = 64,   /**< of a request */
+    COMMAND_REPLY_FLAG = 128, /**< in a reply's number */
     COMMAND_REPLY_BYTES = 512,
     COMMAND_MOST_EVENTS = 50,
-    COMMAND_MOST_LATENCY_US = 200000
+    COMMAND_MOST_LATENCY_US = 200000,
+    COMMAND_ROOM_METHOD = 255
 };
 
 typedef enum {
@@ -76,5 +78,11 @@ int command_encode(uint8_t bytes[COMMAND_MAX_BYTES], const command_t *command);
  * @return COMMAND_OK, COMMAND_UNKNOWN or COMMAND_BAD_VALUE.
  */
 command_result_t command_decode(command_t *command, const uint8_t *bytes, int length);
+
+/**
+ * @return What a request asks for as a small number, for the log. Method: 16 times its filter and its resampler, or
+ *         COMMAND_ROOM_METHOD; freeze: 1 or 0; pattern: which; latency: whole milliseconds; else 0.
+ */
+uint8_t command_argument(const command_t *command);
 
 #endif

@@ -3,6 +3,7 @@
 #include "firmware/projector.h"
 
 #include "firmware/bus_receive.h"
+#include "firmware/pattern_picture.h"
 #include "firmware/safe_picture.h"
 #include "firmware/warp_steps.h"
 
@@ -47,16 +48,31 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
     telemetry_init(&projector->telemetry, projector->picture_us);
     warp_init(&projector->warp, *board->method, board->step_all, board->border);
     set_weights(projector, &board->ls_weights);
+    projector->room_method = board->method;
+    projector->keeps_method = false;
     projector->ladder = ladder_of(board->method);
+    for (int32_t step = 1; step < projector->ladder.steps; step++)
+        (void)warp_add_method(&projector->warp, *projector->ladder.method[step]); /* a test holds: all of them fit */
+    for (int32_t i = WARP_METHODS - 1; i >= 0; i--) /* what an operator may want, the best first */
+        (void)warp_add_method(&projector->warp, warp_methods[i]);
+    projector_begin_ladder(projector);
+    commands_init(&projector->commands, board->node);
+    event_watch_init(&projector->events, board->node);
+}
+
+void projector_begin_ladder(projector_t *projector)
+{
     ladder_t *ladder = &projector->ladder;
     for (int32_t step = 1; step < ladder->steps; step++)
-        if (!warp_add_method(&projector->warp, *ladder->method[step]))
-            ladder->steps = step; /* a test holds that there is room for all */
-    degrade_init(&projector->degrade, ladder->steps);
+        if (!warp_has_method(&projector->warp, *ladder->method[step]))
+            ladder->steps = step;
+    degrade_init(&projector->degrade, projector->keeps_method ? 1 : ladder->steps);
+    warp_use_method(&projector->warp, *ladder->method[0]);
 }
 
 void projector_keep_method(projector_t *projector)
 {
+    projector->keeps_method = true;
     degrade_init(&projector->degrade, 1);
 }
 
@@ -88,6 +104,10 @@ static void take_newest_picture(projector_t *p, int64_t now_us)
 
 static can_board_state_t state_now(const projector_t *p, int64_t now_us)
 {
+    if (p->commands.frozen)
+        return CAN_BOARD_FROZEN;
+    if (p->commands.pattern != COMMAND_PATTERN_NONE)
+        return CAN_BOARD_PATTERN;
     if (now_us - p->picture_us > PROJECTOR_CAMERA_LOST_US)
         return CAN_BOARD_FAULT;
     if (!p->poses.any || !p->choice.now.any)
@@ -122,7 +142,9 @@ static void draw(projector_t *p, const picture_t *panel)
     p->report.corrected = wanted && draw_corrected(p, panel);
     if (wanted && !p->report.corrected)
         p->report.state = CAN_BOARD_FAULT;
-    if (!p->report.corrected)
+    if (p->report.state == CAN_BOARD_PATTERN)
+        pattern_picture_draw(panel, p->commands.pattern);
+    else if (!p->report.corrected)
         safe_picture_draw(panel, p->node);
 }
 
@@ -171,6 +193,14 @@ static bool show(projector_t *p, int64_t begin_us, int64_t deadline_us)
     return status == HAL_OK || status == HAL_IO;
 }
 
+/* The wall keeps what it shows. @return As show(). */
+static bool keep(projector_t *p, int64_t begin_us)
+{
+    p->report.corrected = p->report.times.shown = p->report.times.late = false;
+    p->shown_us = end_stage(p, STAGE_SHOW, end_stage(p, STAGE_WARP, begin_us));
+    return true;
+}
+
 /* What is on the wall from the next blank on; certain only when it got there in time. */
 static void note_agreement(projector_t *p)
 {
@@ -214,11 +244,13 @@ static void drive(projector_t *p, hal_gpio_line_t line, bool high)
         p->faults.gpio++;
 }
 
-/* Steady: running. Slow blinking: waiting, holding or safe. Fast blinking: fault. */
+/* Steady: running. Steady with gaps: frozen, pattern. Slow blinking: waiting, holding or safe. Fast blinking: fault. */
 static bool led_level(can_board_state_t state, int64_t now_us)
 {
     if (state == CAN_BOARD_RUNNING)
         return true;
+    if (state == CAN_BOARD_FROZEN || state == CAN_BOARD_PATTERN)
+        return now_us / 250000 % 4 != 0;
     const int64_t half_period_us = state == CAN_BOARD_FAULT ? 60000 : 250000;
     return now_us / half_period_us % 2 == 0;
 }
@@ -232,9 +264,10 @@ void projector_step(projector_t *p)
 {
     const int64_t now_us = end_stage(p, STAGE_WAIT, p->shown_us);
     drive(p, HAL_GPIO_STROBE, true);
-    const bus_receivers_t receivers = {&p->poses, &p->time, &p->choice.clock, &p->can_faults};
-    bus_receive(&receivers, p->board.can);           /* bus -> checked poses, bus time, numbers of refreshes */
+    const bus_receivers_t receivers = {&p->poses, &p->time, &p->choice.clock, &p->commands.link, &p->can_faults};
+    bus_receive(&receivers, p->board.can); /* bus -> checked poses, bus time, numbers of refreshes, requests */
     bus_master_step(&p->time, p->board.can, now_us); /* bus time -> bus, when it is this board's turn */
+    commands_step(p, now_us);                        /* requests -> what is shown from now on, replies */
     take_newest_picture(p, now_us);                  /* camera -> newest picture, or the last good one */
     p->faults.gpio += !frame_choice_take_edges(&p->choice, p->board.gpio);
     frame_choice_step(&p->choice, &p->poses, &p->time, p->board.can, p->board.camera, newest_blank_us(p));
@@ -242,13 +275,14 @@ void projector_step(projector_t *p)
     const int64_t posed_us = end_stage(p, STAGE_POSE, now_us);
     const int64_t deadline_us = hal_display_next_vblank_us(p->board.display);
     /* pose and picture -> homography, grid, prefilter, resample -> display */
-    const bool healthy = show(p, posed_us, deadline_us);
+    const bool healthy = p->report.state == CAN_BOARD_FROZEN ? keep(p, posed_us) : show(p, posed_us, deadline_us);
     note_agreement(p);
     stage_times_add(&p->stage_times, &p->report.times);
     choose_method(p, deadline_us - now_us); /* what this one took -> the next picture's method */
     drive(p, HAL_GPIO_STROBE, false);
     drive(p, HAL_GPIO_LED, led_level(p->report.state, now_us));
     telemetry_send(p, now_us); /* heartbeat, status, stages, quality -> bus */
-    if (healthy && hal_watchdog_feed(p->board.watchdog) != HAL_OK)
+    event_watch_step(p, now_us);
+    if (healthy && !commands_reboot(&p->commands) && hal_watchdog_feed(p->board.watchdog) != HAL_OK)
         p->faults.watchdog++;
 }

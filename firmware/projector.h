@@ -7,7 +7,9 @@
 #include <stdint.h>
 
 #include "firmware/can_protocol.h"
+#include "firmware/commands.h"
 #include "firmware/degrade.h"
+#include "firmware/event_watch.h"
 #include "firmware/ladder.h"
 #include "firmware/frame_choice.h"
 #include "firmware/pose_from_can.h"
@@ -62,8 +64,10 @@ struct projector {
     frame_choice_t choice; /**< the picture and the pose of this refresh */
     int64_t picture_us;    /**< when it was taken; at first the start of the loop */
     warp_t warp;
-    ladder_t ladder;   /**< the board's method, and what stands in for it */
-    degrade_t degrade; /**< which step of it is in use */
+    const warp_method_t *room_method; /**< the board's own */
+    ladder_t ladder;                  /**< it, or the one that an operator wants, and what stands in for it */
+    degrade_t degrade;                /**< which step of it is in use */
+    bool keeps_method;                /**< it stays at step 0 */
 
     projector_report_t report;
     stage_times_t stage_times; /**< since the last report of them */
@@ -71,6 +75,8 @@ struct projector {
     projector_faults_t faults;
     can_faults_t can_faults;
     telemetry_t telemetry;
+    commands_t commands; /**< what operators want */
+    event_watch_t events;
 };
 
 /**
@@ -89,18 +95,24 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
  */
 void projector_keep_method(projector_t *projector);
 
+/** Make the next pictures with the first method of projector->ladder, which the warp is ready for. Of the others those
+ *  stand in for it that the warp is ready for too, down to the first that it is not. */
+void projector_begin_ladder(projector_t *projector);
+
 /**
  * Everything that is done once per refresh: bus and its time, camera, warp, display, telemetry, watchdog. Call it after
  * each vertical blank. Never blocks, never allocates; ends with a picture presented whatever has failed, unless it is
  * the display itself. When pictures are late or about to be, the next ones are made with a cheaper method (degrade.h).
  *
- * States: waiting for the first pose (safe picture); running; holding the last pose after PROJECTOR_HOLD_AFTER_US
- * without a new one; safe picture after PROJECTOR_SAFE_AFTER_US; fault (safe picture) while the camera has been silent
- * for PROJECTOR_CAMERA_LOST_US, delivers pictures of a wrong size, or the display refuses. Each ends by itself when its
- * cause does.
+ * States: frozen (the wall keeps what it shows, nothing is presented) and pattern, as long as an operator wants that
+ * (commands.h); else waiting for the first pose (safe picture); running; holding the last pose after
+ * PROJECTOR_HOLD_AFTER_US without a new one; safe picture after PROJECTOR_SAFE_AFTER_US; fault (safe picture) while the
+ * camera has been silent for PROJECTOR_CAMERA_LOST_US, delivers pictures of a wrong size, or the display refuses. Each
+ * ends by itself when its cause does.
  *
- * The watchdog is fed when the step got through and a picture was presented, or the display said that it is gone: a
- * reset brings no cable back. A display whose buffers never come free is not fed for.
+ * The watchdog is fed when the step got through and a picture was presented or the wall is frozen, or the display said
+ * that it is gone: a reset brings no cable back. A display whose buffers never come free is not fed for; nor is it fed
+ * when an operator wants a reboot.
  */
 void projector_step(projector_t *projector);
 

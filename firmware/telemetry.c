@@ -48,11 +48,12 @@ static void send(projector_t *p, bool encoded, const hal_can_frame_t *frame)
 static void send_heartbeat(projector_t *p, int64_t now_us)
 {
     telemetry_t *t = &p->telemetry;
+    t->fault_flags = fault_flags(p, now_us);
     const can_heartbeat_t heartbeat = {
         .node = (uint8_t)p->node,
         .counter = t->heartbeat_counter,
         .state = p->report.state,
-        .fault_flags = fault_flags(p, now_us),
+        .fault_flags = t->fault_flags,
         .frame_number = p->report.frame_number,
         .uptime_s = (uint32_t)((now_us - t->start_us) / 1000000),
     };

@@ -14,6 +14,7 @@ typedef struct {
     int64_t start_us;
     int64_t heartbeat_due_us, status_due_us, stage_due_us, quality_due_us, time_due_us;
     uint8_t heartbeat_counter, status_counter, stage_counter, quality_counter, time_counter, step_counter;
+    uint32_t fault_flags;    /**< of the newest heartbeat */
     stage_t stage;           /**< the next to be sent */
     stage_figures_t figures; /**< of the second that is being sent */
     uint32_t seen_bus, seen_bus_off, seen_display, seen_gpio, seen_watchdog, seen_deadline;

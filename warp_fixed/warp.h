@@ -113,6 +113,9 @@ void warp_init(warp_t *warp, warp_method_t method, bool step_all, const uint8_t 
  */
 bool warp_add_method(warp_t *warp, warp_method_t method);
 
+/** @return Is it ready for this method? */
+bool warp_has_method(const warp_t *warp, warp_method_t method);
+
 /** Make the next frames with a method that it is ready for, by warp_init() or warp_add_method(). Takes no time. */
 void warp_use_method(warp_t *warp, warp_method_t method);
 

@@ -29,16 +29,21 @@ static int32_t find_table(const warp_t *warp, warp_resampler_t resampler, bool o
     return i;
 }
 
-/* Build that table, unless it is there or there is nothing to build. @return false when there is no room. */
+/* Is it there, or is there nothing to build? */
+static bool has_table(const warp_t *warp, warp_resampler_t resampler, bool of_coefficients)
+{
+    return resampler == WARP_NEAREST || resampler == WARP_LS ||
+           find_table(warp, resampler, of_coefficients) < warp->tables;
+}
+
+/* Build that table, if need be. @return false when there is no room. */
 static bool add_table(warp_t *warp, warp_resampler_t resampler, bool of_coefficients)
 {
-    if (resampler == WARP_NEAREST || resampler == WARP_LS)
+    if (has_table(warp, resampler, of_coefficients))
         return true;
-    const int32_t i = find_table(warp, resampler, of_coefficients);
+    const int32_t i = warp->tables;
     if (i == WARP_TABLES)
         return false;
-    if (i < warp->tables)
-        return true;
     warp->table[i].resampler = resampler;
     warp->table[i].of_coefficients = of_coefficients;
     window_weights_init(&warp->table[i].weights, resampler, of_coefficients);
@@ -46,10 +51,21 @@ static bool add_table(warp_t *warp, warp_resampler_t resampler, bool of_coeffici
     return true;
 }
 
+static bool has_memory(const warp_t *warp, warp_method_t method)
+{
+    return warp->fits ? !filters(method) : method.resampler != WARP_LS;
+}
+
+bool warp_has_method(const warp_t *warp, warp_method_t method)
+{
+    return has_memory(warp, method) && (warp_splines(of_texels(method)) || has_table(warp, of_texels(method), false)) &&
+           (!filters(method) || has_table(warp, of_coefficients(method), true));
+}
+
 bool warp_add_method(warp_t *warp, warp_method_t method)
 {
     const int32_t tables = warp->tables;
-    if (warp->fits ? filters(method) : method.resampler == WARP_LS)
+    if (!has_memory(warp, method))
         return false;
     const bool added = (warp_splines(of_texels(method)) || add_table(warp, of_texels(method), false)) &&
                        (!filters(method) || add_table(warp, of_coefficients(method), true));

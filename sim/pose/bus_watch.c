@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "firmware/command.h"
 #include "sim/bus/sim_can_bits.h"
 
 enum { MILLION = 1000000 };
@@ -189,6 +190,13 @@ bool bus_watch_heard(const bus_watch_board_t *board)
            board->steps > 0;
 }
 
+/* Requests to boards and their replies, which no decoder judges. */
+static bool is_command(const hal_can_frame_t *frame)
+{
+    const uint32_t node = frame->id & CAN_MAX_NODE, base = frame->id - node;
+    return !frame->extended && node != 0 && (base == CAN_ID_COMMAND || base == CAN_ID_REPLY);
+}
+
 void bus_watch_take(bus_watch_t *watch, const hal_can_frame_t *frame)
 {
     if (watch->frames == 0)
@@ -202,6 +210,6 @@ void bus_watch_take(bus_watch_t *watch, const hal_can_frame_t *frame)
     can_check_t check = take_report(watch, frame);
     if (check == CAN_CHECK_OTHER)
         check = take_time(watch, frame);
-    watch->unknown += check == CAN_CHECK_OTHER;
+    watch->unknown += check == CAN_CHECK_OTHER && !is_command(frame);
     watch->damaged += check != CAN_CHECK_OTHER && check != CAN_CHECK_OK;
 }

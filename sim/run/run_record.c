@@ -179,6 +179,12 @@ const char *run_state_name(can_board_state_t state)
         return "safe";
     case CAN_BOARD_FAULT:
         return "fault";
+    case CAN_BOARD_FROZEN:
+        return "frozen";
+    case CAN_BOARD_PATTERN:
+        return "pattern";
+    case CAN_BOARD_STATES:
+        break;
     }
     return "unknown";
 }

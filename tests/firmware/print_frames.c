@@ -201,7 +201,7 @@ static void print_heartbeats(void)
         hal_can_frame_t frame;
         const can_heartbeat_t heartbeat = {.node = 1,
                                            .counter = (uint8_t)(8 + i),
-                                           .state = (can_board_state_t)(i % (CAN_BOARD_FAULT + 1)),
+                                           .state = (can_board_state_t)(i % CAN_BOARD_STATES),
                                            .fault_flags = FAULT[i].flag,
                                            .frame_number = 43210,
                                            .uptime_s = 54321};
@@ -209,7 +209,7 @@ static void print_heartbeats(void)
         print_frame("Heartbeat", &frame, CAN_HEARTBEAT_PERIOD_MS);
         printf("signal HeartbeatCounter %d\nsignal HeartbeatState %d\nsignal HeartbeatFrameNumber 43210\n"
                "signal HeartbeatUptime 54321\nsignal HeartbeatFaultReserved 0\n",
-               8 + i, i % (CAN_BOARD_FAULT + 1));
+               8 + i, i % CAN_BOARD_STATES);
         for (int k = 0; k < FAULTS; k++)
             printf("signal %s %d\n", FAULT[k].signal, k == i ? 1 : 0);
     }

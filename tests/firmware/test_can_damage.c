@@ -174,7 +174,7 @@ static void test_reserved_values_under_a_right_crc_are_refused(void **state)
 
     can_heartbeat_t heartbeat = {.node = 77};
     assert_true(can_heartbeat_encode(&frame, &HEARTBEAT));
-    frame.data[1] = 0x5E; /* state 5 */
+    frame.data[1] = 0x7E; /* state 7 */
     sign_p01(&frame);
     assert_int_equal(can_heartbeat_decode(&heartbeat, &frame), CAN_CHECK_VALUE);
     assert_int_equal(heartbeat.node, 77);

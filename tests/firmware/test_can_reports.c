@@ -42,7 +42,7 @@ static void test_heartbeat_comes_back(void **state)
     bad[0].node = 0;
     bad[1].node = CAN_MAX_NODE + 1;
     bad[2].counter = 15;
-    bad[3].state = (can_board_state_t)5;
+    bad[3].state = CAN_BOARD_STATES;
     bad[4].fault_flags = 0x10000;
     for (int i = 0; i < 5; i++)
         assert_false(can_heartbeat_encode(&frame, &bad[i]));

@@ -93,6 +93,20 @@ static void test_bad_requests_change_nothing(void **state)
     assert_int_equal(command_decode(&command, long_request, COMMAND_MAX_BYTES), COMMAND_BAD_VALUE); /* zeros: no name */
 }
 
+static void test_arguments_fit_the_log(void **state)
+{
+    (void)state;
+    assert_int_equal(command_argument(&(command_t){.kind = COMMAND_METHOD}), COMMAND_ROOM_METHOD);
+    for (int m = 0; m < WARP_METHODS; m++) {
+        const command_t command = {.kind = COMMAND_METHOD, .method = &warp_methods[m], .freeze = true};
+        assert_int_equal(command_argument(&command), 16 * (int)warp_methods[m].filter + (int)warp_methods[m].resampler);
+    }
+    assert_int_equal(command_argument(&(command_t){.kind = COMMAND_FREEZE, .freeze = true}), 1);
+    assert_int_equal(command_argument(&(command_t){.kind = COMMAND_PATTERN, .pattern = COMMAND_PATTERN_BLACK}), 3);
+    assert_int_equal(command_argument(&(command_t){.kind = COMMAND_LATENCY, .latency_us = 200000}), 200);
+    assert_int_equal(command_argument(&(command_t){.kind = COMMAND_REBOOT, .freeze = true}), 0);
+}
+
 /* @return Events packed from `first` on, which must begin at `begins`; each is checked. */
 static int assert_packed(const event_log_t *log, uint32_t first, int most, uint32_t begins)
 {
@@ -142,6 +156,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_requests),
         cmocka_unit_test(test_bad_requests_change_nothing),
+        cmocka_unit_test(test_arguments_fit_the_log),
         cmocka_unit_test(test_log_keeps_the_newest),
         cmocka_unit_test(test_events_of_a_newer_firmware_are_seen_as_such),
     };

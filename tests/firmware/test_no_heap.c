@@ -88,12 +88,55 @@ static void test_no_fault_allocates(void **state)
     assert_int_equal(calls, 0);
 }
 
+static void ask(const command_t *command)
+{
+    hal_can_frame_t frame;
+    uint8_t bytes[COMMAND_MAX_BYTES];
+    isotp_t link;
+    isotp_init(&link, CAN_ID_REPLY + 5, CAN_ID_COMMAND + 5);
+    assert_true(isotp_send(&link, bytes, command_encode(bytes, command), room_bench_now_us(&bench)));
+    for (int i = 0; i < 30; i++) {
+        while (hal_can_receive(bench.tracker, &frame) == HAL_OK)
+            (void)isotp_take(&link, &frame, room_bench_now_us(&bench));
+        while (isotp_next(&link, &frame, room_bench_now_us(&bench)))
+            assert_int_equal(hal_can_send(bench.tracker, &frame), HAL_OK);
+        step();
+    }
+}
+
+static void test_no_command_allocates(void **state)
+{
+    (void)state;
+    static const command_t commands[] = {
+        {.kind = COMMAND_HELLO},
+        {.kind = COMMAND_FREEZE, .freeze = true},
+        {.kind = COMMAND_FREEZE},
+        {.kind = COMMAND_PATTERN, .pattern = COMMAND_PATTERN_GRID},
+        {.kind = COMMAND_PATTERN},
+        {.kind = COMMAND_METHOD},
+        {.kind = COMMAND_LATENCY, .latency_us = 1000},
+        {.kind = COMMAND_LOG},
+        {.kind = COMMAND_REBOOT},
+    };
+    open_projector(warp_method_default(), true);
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
+        ask(&commands[i]);
+    for (int m = 0; m < WARP_METHODS; m++)
+        ask(&(command_t){.kind = COMMAND_METHOD, .method = &warp_methods[m]});
+    const int calls = heap_trap_calls;
+    const bool rebooting = projector.commands.reboot;
+    room_bench_close(&bench);
+    assert_true(rebooting);
+    assert_int_equal(calls, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(heap_trap_works),
         cmocka_unit_test(test_no_method_allocates),
         cmocka_unit_test(test_no_fault_allocates),
+        cmocka_unit_test(test_no_command_allocates),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

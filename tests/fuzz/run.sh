@@ -110,6 +110,11 @@ seed() {
             printf '\2'
         } >"$2/osc_bundle"
         ;;
+    fuzz_commands)
+        # Each a whole request: 0, its length less 1, its bytes.
+        printf '\0\0\1\0\6\6reboot\0\4\7\0\0\0\0\0\5\2area\0\1\3\1\0\1\4\1\0\4\5\1\2\0\0' >"$2/each"
+        printf '\0\16\2kaiser+nearest\0\2\2ls\0\0\2' >"$2/methods"
+        ;;
     fuzz_formats)
         # Every method, from every format to every format: of one colour and of many, as it comes and turned, and
         # on a panel of odd height.

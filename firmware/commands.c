@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Does what operators ask of a board over the bus, and replies.
+#include "firmware/commands.h"
+
+#include <string.h>
+
+#include "firmware/byte_order.h"
+#include "firmware/projector.h"
+#include "firmware/version.h"
+
+enum { HEADER_BYTES = 2, NUMBER_BYTES = 4, LOG_BYTES = HEADER_BYTES + NUMBER_BYTES };
+
+_Static_assert(LOG_BYTES + COMMAND_MOST_EVENTS * EVENT_BYTES <= COMMAND_REPLY_BYTES, "a reply holds these events");
+_Static_assert((int)COMMAND_REPLY_BYTES <= (int)ISOTP_MAX_LENGTH, "a reply is one message");
+
+void commands_init(commands_t *commands, int32_t node)
+{
+    *commands = (commands_t){.pattern = COMMAND_PATTERN_NONE};
+    isotp_init(&commands->link, CAN_ID_COMMAND + (uint32_t)node, CAN_ID_REPLY + (uint32_t)node);
+}
+
+/* The pictures to come are made with it, or with what stands in for it. */
+static command_result_t use_method(projector_t *p, const warp_method_t *method)
+{
+    if (method == p->ladder.method[0])
+        return COMMAND_OK;
+    if (!warp_has_method(&p->warp, *method))
+        return COMMAND_IMPOSSIBLE;
+    const uint32_t changes = p->degrade.changes;
+    p->ladder = ladder_of(method);
+    projector_begin_ladder(p);
+    p->degrade.changes = changes;
+    return COMMAND_OK;
+}
+
+static command_result_t execute(projector_t *p, const command_t *command)
+{
+    commands_t *c = &p->commands;
+    switch (command->kind) {
+    case COMMAND_METHOD:
+        return use_method(p, command->method == NULL ? p->room_method : command->method);
+    case COMMAND_FREEZE:
+        c->frozen = command->freeze;
+        break;
+    case COMMAND_PATTERN:
+        c->pattern = command->pattern;
+        break;
+    case COMMAND_LATENCY:
+        c->wanted_latency_us = command->latency_us;
+        break;
+    case COMMAND_REBOOT:
+        c->reboot = true;
+        break;
+    case COMMAND_HELLO:
+    case COMMAND_LOG:
+        break;
+    }
+    return COMMAND_OK;
+}
+
+/* What was asked for. @return Bytes, after the header. */
+static int put_answer(const projector_t *p, const command_t *command, uint8_t *bytes)
+{
+    uint32_t first = command->first_event;
+    int events = 0;
+    switch (command->kind) {
+    case COMMAND_HELLO:
+        bytes[0] = (uint8_t)p->node;
+        put_u32(bytes + 1, p->events.log.count);
+        memcpy(bytes + 1 + NUMBER_BYTES, firmware_version, sizeof firmware_version - 1);
+        return 1 + NUMBER_BYTES + (int)sizeof firmware_version - 1;
+    case COMMAND_LATENCY:
+        put_u32(bytes, p->commands.wanted_latency_us);
+        return NUMBER_BYTES;
+    case COMMAND_LOG:
+        events = event_log_pack(&p->events.log, bytes + NUMBER_BYTES, &first, COMMAND_MOST_EVENTS);
+        put_u32(bytes, first);
+        return NUMBER_BYTES + EVENT_BYTES * events;
+    case COMMAND_METHOD:
+    case COMMAND_FREEZE:
+    case COMMAND_PATTERN:
+    case COMMAND_REBOOT:
+        break;
+    }
+    return 0;
+}
+
+/* @return Bytes of the reply. */
+static int answer(projector_t *p, uint8_t reply[COMMAND_REPLY_BYTES], const uint8_t *request, int length,
+                  int64_t now_us)
+{
+    command_t command = {.kind = (command_kind_t)request[0]};
+    command_result_t result = command_decode(&command, request, length);
+    if (result == COMMAND_OK)
+        result = execute(p, &command);
+    event_watch_command(p, &command, result, now_us);
+    reply[0] = request[0] | COMMAND_REPLY_FLAG;
+    reply[1] = (uint8_t)result;
+    return HEADER_BYTES + (result == COMMAND_OK ? put_answer(p, &command, reply + HEADER_BYTES) : 0);
+}
+
+void commands_step(projector_t *p, int64_t now_us)
+{
+    isotp_t *link = &p->commands.link;
+    const uint8_t *request;
+    const int length = isotp_received(link, &request);
+    if (length > 0 && !isotp_sending(link)) {
+        uint8_t reply[COMMAND_REPLY_BYTES];
+        const int bytes = answer(p, reply, request, length, now_us);
+        isotp_taken(link);
+        (void)isotp_send(link, reply, bytes, now_us);
+    }
+    hal_can_frame_t frame;
+    for (int i = 0; i < COMMANDS_FRAMES && isotp_next(link, &frame, now_us); i++)
+        if (hal_can_send(p->board.can, &frame) != HAL_OK)
+            p->faults.can_send++;
+}
+
+bool commands_reboot(const commands_t *commands)
+{
+    return commands->reboot && !isotp_sending(&commands->link);
+}
