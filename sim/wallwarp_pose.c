@@ -12,7 +12,7 @@ static const struct {
     int (*run)(int argc, char **argv);
 } commands[] = {
     {"send", command_send},       {"bridge", command_bridge}, {"record", command_record}, {"replay", command_replay},
-    {"monitor", command_monitor}, {"check", command_check},   {"fault", command_fault},
+    {"monitor", command_monitor}, {"check", command_check},   {"fault", command_fault},   {"command", command_command},
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
@@ -57,7 +57,8 @@ int main(int argc, char **argv)
                "  replay     send a log again\n"
                "  monitor    show poses, rates, losses, boards and load, live\n"
                "  check      say whether a bus is healthy\n"
-               "  fault      make a bus bad on purpose\n\n"
+               "  fault      make a bus bad on purpose\n"
+               "  command    tell boards something, or ask them\n\n"
                "`wallwarp-pose COMMAND --help` says more about a command.",
     };
     char name[32]; /* how argp names the command in its messages */

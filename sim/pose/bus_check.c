@@ -8,10 +8,10 @@
 #include <string.h>
 
 #include "firmware/projector.h"
+#include "sim/pose/event_text.h"
 #include "sim/run/run_record.h"
 
 enum { LEAST_POSES_PER_S = 20, MOST_LOAD_PPM = 700000, US_PER_S = 1000000 };
-enum { NAMES_LENGTH = 256 };
 enum { MOST_TIME_ERROR_US = 1000 };
 enum { HEARTBEAT_GAP_US = 3 * CAN_HEARTBEAT_PERIOD_MS * 1000 / 2 };
 
@@ -110,19 +110,6 @@ static void check_time(judge_t *judge, const bus_watch_t *watch)
         say(judge, true, "bus time: given by number %u, %" PRId64 " pairs", (unsigned)time->master, time->pairs.count);
 }
 
-/* "deadline, camera" */
-static void name_faults(char names[NAMES_LENGTH], uint32_t flags)
-{
-    static const char *const known[] = {"bus", "bus-off", "camera", "display", "GPIO", "watchdog", "deadline"};
-    names[0] = '\0';
-    for (size_t bit = 0; bit < 16; bit++) {
-        const size_t used = strlen(names);
-        if ((flags >> bit & 1U) != 0)
-            snprintf(names + used, NAMES_LENGTH - used, "%s%s", used > 0 ? ", " : "",
-                     bit < sizeof known / sizeof known[0] ? known[bit] : "one of a newer firmware");
-    }
-}
-
 static void check_board_time(judge_t *judge, int node, const bus_watch_board_t *board)
 {
     const can_time_t *time = &board->time;
@@ -148,6 +135,24 @@ static void check_board_steps(judge_t *judge, int node, const bus_watch_board_t 
             node, 100.0 * (double)board->in_step / (double)board->steps);
 }
 
+static void check_state(judge_t *judge, int node, can_board_state_t state)
+{
+    if (state == CAN_BOARD_FROZEN)
+        say(judge, false, "board %d: an operator has frozen its picture; `wallwarp-pose command freeze off` ends that",
+            node);
+    else if (state == CAN_BOARD_PATTERN)
+        say(judge, false,
+            "board %d: an operator has put a test pattern on; `wallwarp-pose command pattern none` ends that", node);
+    else if (state != CAN_BOARD_RUNNING)
+        say(judge, false, "board %d: is %s, expected running", node, run_state_name(state));
+}
+
+/* By an operator: it does not show what the others do. */
+static bool is_held(can_board_state_t state)
+{
+    return state == CAN_BOARD_FROZEN || state == CAN_BOARD_PATTERN;
+}
+
 /* @param steps  Do boards send Step at all? */
 static void check_board(judge_t *judge, int node, const bus_watch_board_t *board, int64_t end_us, bool steps)
 {
@@ -163,15 +168,15 @@ static void check_board(judge_t *judge, int node, const bus_watch_board_t *board
             node, gap_us / 1000, CAN_HEARTBEAT_PERIOD_MS);
     if (board->restarts > 0)
         say(judge, false, "board %d: started anew %" PRId64 " times; see its log", node, board->restarts);
-    if (board->heartbeat.state != CAN_BOARD_RUNNING)
-        say(judge, false, "board %d: is %s, expected running", node, run_state_name(board->heartbeat.state));
+    check_state(judge, node, board->heartbeat.state);
     if (board->heartbeat.fault_flags != 0) {
-        char names[NAMES_LENGTH];
-        name_faults(names, board->heartbeat.fault_flags);
+        char names[FAULT_NAMES_LENGTH];
+        event_fault_names(names, board->heartbeat.fault_flags);
         say(judge, false, "board %d: reports a fault: %s", node, names);
     }
     check_board_time(judge, node, board);
-    check_board_steps(judge, node, board, steps);
+    if (!is_held(board->heartbeat.state))
+        check_board_steps(judge, node, board, steps);
     if (judge->bad == before)
         say(judge, true, "board %d: running, up for %" PRIu32 " s", node, board->heartbeat.uptime_s);
 }

@@ -6,25 +6,6 @@ set -u
 build=${1:?usage: test_bus_tools.sh BUILD_FOLDER}
 . tests/sim/run/programs.sh
 
-# start_room NAME: a room in real time; its bus is then $bus, its process $room.
-start_room() {
-    "$build/wallwarp-sim" run "$scratch/classic.yaml" --video $picture --bus 0 --out "$scratch/$1" \
-        >"$scratch/$1.out" 2>/dev/null &
-    room=$!
-    started="$started $room"
-    bus=127.0.0.1:$(port_in "$scratch/$1.out")
-}
-
-end_room() {
-    kill -INT "$room"
-    wait "$room"
-    check "the room ends well" $?
-}
-
-pose_tool() {
-    timeout 60 "$build/wallwarp-pose" "$@" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
-}
-
 # poses_in LOG: identifier and data of every pose frame, in order.
 poses_in() {
     sed -n 's/^.* can0 \(11[012]#.*\)$/\1/p' "$1"

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "firmware/command.h"
 #include "sim/pose/bus_check.h"
 #include "sim/pose/bus_watch.h"
 
@@ -221,6 +222,17 @@ static void test_each_fault_of_a_board_is_said(void **state)
     assert_said(&s, 1, "BAD  board 7: is holding, expected running");
 
     s = scene();
+    s.state = CAN_BOARD_FROZEN;
+    play(&s);
+    assert_said(&s, 1,
+                "BAD  board 7: an operator has frozen its picture; `wallwarp-pose command freeze off` ends that");
+
+    s = scene();
+    s.state = CAN_BOARD_PATTERN;
+    play(&s);
+    assert_said(&s, 1, "BAD  board 7: an operator has put a test pattern on; ");
+
+    s = scene();
     s.faults = CAN_FAULT_CAMERA | CAN_FAULT_DEADLINE | 1 << 9;
     play(&s);
     assert_said(&s, 1, "BAD  board 7: reports a fault: camera, deadline, one of a newer firmware");
@@ -270,6 +282,20 @@ static void test_bus_time_is_known(void **state)
     assert_true(s.watch.unknown == 0 && s.watch.damaged == 1);
 }
 
+static void test_commands_are_known(void **state)
+{
+    (void)state;
+    static const uint32_t known[] = {CAN_ID_COMMAND + 1, CAN_ID_COMMAND + 63, CAN_ID_REPLY + 1, CAN_ID_REPLY + 63};
+    static const uint32_t unknown[] = {CAN_ID_COMMAND, CAN_ID_REPLY, CAN_ID_REPLY + 64};
+    scene_t s = scene();
+    for (int i = 0; i < 4; i++)
+        send(&s, (hal_can_frame_t){.id = known[i], .length = 8}, 1000000);
+    assert_true(s.watch.unknown == 0 && s.watch.damaged == 0);
+    for (int i = 0; i < 3; i++)
+        send(&s, (hal_can_frame_t){.id = unknown[i], .length = 8}, 1000000);
+    assert_int_equal(s.watch.unknown, 3);
+}
+
 static void test_both_messages_of_one_viewer_are_said(void **state)
 {
     (void)state;
@@ -292,6 +318,7 @@ int main(void)
         cmocka_unit_test(test_each_fault_of_a_board_is_said),
         cmocka_unit_test(test_silence_and_strangers),
         cmocka_unit_test(test_bus_time_is_known),
+        cmocka_unit_test(test_commands_are_known),
         cmocka_unit_test(test_both_messages_of_one_viewer_are_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -72,6 +72,25 @@ port_in() {
     return 1
 }
 
+# start_room NAME: a room in real time; its bus is then $bus, its process $room.
+start_room() {
+    "$build/wallwarp-sim" run "$scratch/classic.yaml" --video $picture --bus 0 --out "$scratch/$1" \
+        >"$scratch/$1.out" 2>/dev/null &
+    room=$!
+    started="$started $room"
+    bus=127.0.0.1:$(port_in "$scratch/$1.out")
+}
+
+end_room() {
+    kill -INT "$room"
+    wait "$room"
+    check "the room ends well" $?
+}
+
+pose_tool() {
+    timeout 60 "$build/wallwarp-pose" "$@" >"$scratch/stdout" 2>"$scratch/stderr" </dev/null
+}
+
 write_room true >"$scratch/fd.yaml"
 write_room false >"$scratch/classic.yaml"
 write_poses 10 >"$scratch/ten.csv"

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// `wallwarp-pose command`: tell boards something, or ask them.
+#include <argp.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "firmware/byte_order.h"
+#include "firmware/can_protocol.h"
+#include "sim/pose/board_talk.h"
+#include "sim/pose/command_options.h"
+#include "sim/pose/commands.h"
+#include "sim/pose/event_text.h"
+#include "sim/pose/request_text.h"
+#include "sim/program.h"
+
+enum { KEY_ALL = 256, QUIET_US = 3000000, ROLL_CALL_US = 1500000, NUMBER_BYTES = 4, HELLO_BYTES = 5 };
+
+typedef struct {
+    const char *bus, *name, *value;
+    int node; /**< 0: all */
+    bool node_given, whole_log;
+    command_t request;
+} options_t;
+
+/* A bus that is listened to, and who is asked. */
+typedef struct {
+    const char *program;
+    const volatile sig_atomic_t *stop;
+    pose_link_t link;
+    board_talk_t talk[CAN_MAX_NODE];
+    int boards;
+} session_t;
+
+static void check_usage(struct argp_state *state, options_t *options)
+{
+    char error[REQUEST_TEXT_MESSAGE_LENGTH];
+    if (options->bus == NULL)
+        argp_error(state, "--bus is missing");
+    if (!options->node_given)
+        argp_error(state, "--node is missing: 1 to %d, or all", CAN_MAX_NODE);
+    if (options->name == NULL)
+        argp_error(state, "what to tell the board is missing");
+    else if (!request_from_text(&options->request, options->name, options->value, error))
+        argp_error(state, "%s", error);
+    if (options->whole_log && options->request.kind != COMMAND_LOG)
+        argp_error(state, "--all is for log only");
+}
+
+static error_t parse(int key, char *argument, struct argp_state *state)
+{
+    options_t *options = state->input;
+    switch (key) {
+    case 'b':
+        options->bus = command_bus(state, argument);
+        return 0;
+    case 'n':
+        options->node_given = true;
+        options->node = 0;
+        if (strcmp(argument, "all") != 0)
+            options->node = (int)command_whole(state, "--node", argument, 1, CAN_MAX_NODE);
+        return 0;
+    case KEY_ALL:
+        options->whole_log = true;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (state->arg_num == 0)
+            options->name = argument;
+        else if (state->arg_num == 1)
+            options->value = argument;
+        else
+            argp_error(state, "one command with one value expected, found also '%s'", argument);
+        return 0;
+    case ARGP_KEY_END:
+        check_usage(state, options);
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static bool say(const session_t *session, int node, const char *what)
+{
+    fprintf(stderr, "%s: board %d %s\n", session->program, node, what);
+    return false;
+}
+
+/* @return Has the board done it? Else that is said. */
+static bool is_done(const session_t *session, const board_talk_t *talk)
+{
+    if (!talk->replied)
+        return say(session, talk->node, "does not reply; is it on this bus, and running?");
+    if (talk->result != COMMAND_OK)
+        return say(session, talk->node, request_refusal(talk->request.kind, talk->result));
+    const bool short_hello = talk->request.kind == COMMAND_HELLO && talk->length < HELLO_BYTES;
+    const bool short_number =
+        (talk->request.kind == COMMAND_LATENCY || talk->request.kind == COMMAND_LOG) && talk->length < NUMBER_BYTES;
+    if (short_hello || short_number)
+        return say(session, talk->node, "replies with less than it should; is its firmware of this version?");
+    return true;
+}
+
+/* @return false when the bus has failed; said. */
+static bool ask(session_t *session, int64_t quiet_us)
+{
+    char error[POSE_LINK_MESSAGE_LENGTH];
+    if (board_talk(&session->link, session->talk, session->boards, quiet_us, session->stop, error))
+        return true;
+    fprintf(stderr, "%s: %s\n", session->program, error);
+    return false;
+}
+
+/* Whoever is there. @return false when the bus has failed, or nobody is; said. */
+static bool call_the_roll(session_t *session)
+{
+    session->boards = CAN_MAX_NODE;
+    for (int i = 0; i < CAN_MAX_NODE; i++)
+        session->talk[i] = (board_talk_t){.node = (uint8_t)(i + 1), .request = {.kind = COMMAND_HELLO}};
+    if (!ask(session, ROLL_CALL_US))
+        return false;
+    int boards = 0;
+    for (int i = 0; i < CAN_MAX_NODE; i++)
+        if (session->talk[i].replied)
+            session->talk[boards++] = session->talk[i];
+    session->boards = boards;
+    if (boards == 0)
+        fprintf(stderr, "%s: no board replies; are they on this bus, and running?\n", session->program);
+    return boards > 0;
+}
+
+static void print_answer(const board_talk_t *talk)
+{
+    const uint8_t *answer = talk->answer;
+    switch (talk->request.kind) {
+    case COMMAND_HELLO:
+        printf("board %d: %.*s, %" PRIu32 " events\n", talk->node, talk->length - HELLO_BYTES,
+               (const char *)answer + HELLO_BYTES, get_u32(answer + 1));
+        break;
+    case COMMAND_LATENCY:
+        printf("board %d: latency %" PRIu32 ".%03" PRIu32 " ms wanted\n", talk->node, get_u32(answer) / 1000,
+               get_u32(answer) % 1000);
+        break;
+    case COMMAND_REBOOT:
+        printf("board %d: starts anew when its watchdog ends, in about 2 s\n", talk->node);
+        break;
+    case COMMAND_METHOD:
+    case COMMAND_FREEZE:
+    case COMMAND_PATTERN:
+    case COMMAND_LOG:
+        printf("board %d: done\n", talk->node);
+        break;
+    }
+}
+
+/* @return Events of one reply of a log. */
+static int print_events(const board_talk_t *talk)
+{
+    const int events = (talk->length - NUMBER_BYTES) / EVENT_BYTES;
+    for (int i = 0; i < events; i++) {
+        char text[EVENT_TEXT_LENGTH];
+        event_t event;
+        (void)event_unpack(&event, talk->answer + NUMBER_BYTES + EVENT_BYTES * i);
+        event_text(text, &event);
+        printf("board %d: %s\n", talk->node, text);
+    }
+    return events;
+}
+
+/* One board's log, from an event on. */
+static bool read_log(session_t *session, int node, uint32_t first)
+{
+    int events = COMMAND_MOST_EVENTS;
+    while (events == COMMAND_MOST_EVENTS) {
+        session->boards = 1;
+        session->talk[0] = (board_talk_t){.node = (uint8_t)node, .request = {COMMAND_LOG, .first_event = first}};
+        if (!ask(session, QUIET_US) || !is_done(session, session->talk))
+            return false;
+        events = print_events(session->talk);
+        first = get_u32(session->talk[0].answer) + (uint32_t)events;
+    }
+    return true;
+}
+
+/* After a hello of everybody. */
+static bool read_logs(session_t *session, bool whole)
+{
+    uint8_t node[CAN_MAX_NODE];
+    uint32_t first[CAN_MAX_NODE];
+    const int boards = session->boards;
+    bool done = true;
+    for (int i = 0; i < boards; i++) {
+        const board_talk_t *talk = &session->talk[i];
+        if (!is_done(session, talk))
+            return false;
+        const uint32_t events = get_u32(talk->answer + 1);
+        node[i] = talk->node;
+        first[i] = whole || events < COMMAND_MOST_EVENTS ? 0 : events - COMMAND_MOST_EVENTS;
+    }
+    for (int i = 0; i < boards; i++)
+        done = read_log(session, node[i], first[i]) && done;
+    return done;
+}
+
+static bool tell(session_t *session, const options_t *options)
+{
+    const bool log = options->request.kind == COMMAND_LOG;
+    const command_t request = log ? (command_t){.kind = COMMAND_HELLO} : options->request;
+    if (options->node == 0 && !call_the_roll(session))
+        return false;
+    if (options->node != 0) {
+        session->boards = 1;
+        session->talk[0].node = (uint8_t)options->node;
+    }
+    for (int i = 0; i < session->boards; i++)
+        session->talk[i].request = request;
+    const bool asked = options->node == 0 && request.kind == COMMAND_HELLO;
+    if (!asked && !ask(session, QUIET_US))
+        return false;
+    if (log)
+        return read_logs(session, options->whole_log);
+    bool done = true;
+    for (int i = 0; i < session->boards; i++) {
+        if (is_done(session, &session->talk[i]))
+            print_answer(&session->talk[i]);
+        else
+            done = false;
+    }
+    return done;
+}
+
+int command_command(int argc, char **argv)
+{
+    static const struct argp_option option_table[] = {
+        {"bus", 'b', "BUS", 0, command_bus_help, 0},
+        {"node", 'n', "N", 0, "Which board: its node number, or all; needed", 0},
+        {"all", KEY_ALL, NULL, 0, "log: all events that the board keeps, not only the newest 50", 0},
+        {0},
+    };
+    static const struct argp argp = {
+        .options = option_table,
+        .parser = parse,
+        .args_doc = "COMMAND [VALUE]",
+        .doc = "Tell a board something, or ask it.\v"
+               "Commands:\n"
+               "  hello          which firmware it is\n"
+               "  method NAME    correct with another method; room: with the room file's\n"
+               "  freeze on|off  keep the wall's picture as it is\n"
+               "  pattern none|grid|white|black\n"
+               "                 show a picture for setting up the projector\n"
+               "  latency MS     show pictures so much later than it could, 0 to 200\n"
+               "  reboot         start anew\n"
+               "  log            what has happened, newest last\n\n"
+               "It holds until another is given, or the board starts anew. Exit status: 0 every board has done it, 1 "
+               "one has not, 2 bad usage.",
+    };
+    static session_t session;
+    char error[POSE_LINK_MESSAGE_LENGTH];
+    options_t options = {.bus = NULL};
+    argp_parse(&argp, argc, argv, 0, NULL, &options);
+    session.program = argv[0];
+    session.stop = command_catch_stop();
+    if (!pose_link_open(&session.link, options.bus, false, error)) {
+        fprintf(stderr, "%s: %s\n", argv[0], error);
+        return PROGRAM_FAILED;
+    }
+    bool done = pose_link_listen(&session.link, error);
+    if (done)
+        done = tell(&session, &options);
+    else
+        fprintf(stderr, "%s: %s\n", argv[0], error);
+    pose_link_close(&session.link);
+    const int status = program_finish(argv[0]);
+    return done ? status : PROGRAM_FAILED;
+}
