@@ -14,8 +14,8 @@ typedef enum {
     EVENT_STATE = 1,    /**< value: can_board_state_t that it is in now */
     EVENT_FAULTS = 2,   /**< value: can_fault_flag_t of the last half second, when they are others than before */
     EVENT_METHOD = 3,   /**< value: steps below the room's method */
-    EVENT_COMMAND = 4,  /**< value: command_kind_t, plus 256 times the command_result_t, plus 65536 times what it asks
-                           for:  see command_argument() */
+    EVENT_COMMAND = 4,  /**< value: command_kind_t, plus 256 times command_result_t, plus 65536 times the request's
+                             command_argument() */
     EVENT_BUS_TIME = 5, /**< value: state of the bus time */
     EVENT_KINDS
 } event_kind_t;

@@ -26,7 +26,10 @@ void event_watch_init(event_watch_t *watch, int32_t node);
 /** Log what has changed. Call it at the end of every step. */
 void event_watch_step(projector_t *projector, int64_t now_us);
 
-/** Log a request. Of those that only ask (hello, log), none that is answered. @param command  Its kind may be unknown.
+/**
+ * Log a request, but not one that only asks (hello, log) and is answered.
+ *
+ * @param command  Its kind may be unknown.
  */
 void event_watch_command(projector_t *projector, const command_t *command, command_result_t result, int64_t now_us);
 

@@ -95,8 +95,8 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
  */
 void projector_keep_method(projector_t *projector);
 
-/** Make the next pictures with the first method of projector->ladder, which the warp is ready for. Of the others those
- *  stand in for it that the warp is ready for too, down to the first that it is not. */
+/** Make the next pictures with projector->ladder: its first method, which the warp must be ready for, and as stand-ins
+ *  those that follow it, up to the first that the warp is not ready for. */
 void projector_begin_ladder(projector_t *projector);
 
 /**

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What moves on the page of a run (page.html). The constant "data" is the block of JSON that page.c writes.
 const colours = ["#6cb6ff", "#f5a65b", "#7fdca0", "#c99bff", "#ff8fa3", "#e8d56b", "#5fd3d3", "#b9c3d0"];
-const states = ["waiting", "running", "holding", "safe", "fault"];
+const states = ["waiting", "running", "holding", "safe", "fault", "frozen", "pattern"];
 const by = id => document.getElementById(id);
 const put = (parent, tag, text, attributes) => {
   const svg = parent.namespaceURI.endsWith("svg");

@@ -84,6 +84,10 @@ static void test_what_does_not_fit_is_refused(void **state)
     (void)state;
     const warp_method_t *ls = warp_method_from_name("ls"), *spline = warp_method_from_name("mean+spline");
     warp_init(&warp, *ls, false, border);
+    assert_true(warp_has_method(&warp, *ls));
+    assert_false(warp_has_method(&warp, *spline));
+    assert_false(warp_has_method(&warp, *warp_method_from_name("none+linear")));
+    assert_true(warp_has_method(&warp, *warp_method_from_name("none+nearest")));
     assert_false(warp_add_method(&warp, *spline));
     assert_false(warp_add_method(&warp, *warp_method_from_name("gauss+nearest")));
     assert_false(warp_add_method(&warp, *warp_method_from_name("auto")));
@@ -94,6 +98,12 @@ static void test_what_does_not_fit_is_refused(void **state)
     assert_true(warp_add_method(&warp, *warp_method_from_name("area")));
     assert_false(warp_add_method(&warp, *warp_method_from_name("gauss+linear"))); /* two, and there is one */
     assert_int_equal(warp.tables, 3);
+    assert_true(warp_has_method(&warp, *spline));
+    assert_true(warp_has_method(&warp, *warp_method_from_name("auto")));
+    assert_true(warp_has_method(&warp, *warp_method_from_name("gauss+nearest")));
+    assert_false(warp_has_method(&warp, *ls));
+    assert_false(warp_has_method(&warp, *warp_method_from_name("gauss+linear")));
+    assert_false(warp_has_method(&warp, *warp_method_from_name("none+linear")));
     assert_true(warp_add_method(&warp, *warp_method_from_name("none+linear")));
     assert_true(warp_add_method(&warp, *warp_method_from_name("mean+cubic")));
     assert_false(warp_add_method(&warp, *warp_method_from_name("none+cubic")));
