@@ -24,6 +24,7 @@ typedef struct {
     int other_picture, other_pose_us;
     bool other_tag;
     int out_of_step_from; /* the refresh from which on board 3 is not in step */
+    bool frozen;          /* board 3 is, by an operator */
     can_time_state_t state;
     uint32_t error_us;
 } scene_t;
@@ -93,7 +94,8 @@ static void send_board(scene_t *scene, int refresh, uint8_t node)
 {
     hal_can_frame_t frame;
     const int64_t at_us = time_us(refresh) + 2000 + 900 * node;
-    const can_heartbeat_t heartbeat = {.node = node, .state = CAN_BOARD_RUNNING};
+    const can_heartbeat_t heartbeat = {.node = node,
+                                       .state = node == 3 && scene->frozen ? CAN_BOARD_FROZEN : CAN_BOARD_RUNNING};
     const can_time_t time = {.node = node,
                              .state = node == 2 ? scene->state : CAN_TIME_LOCKED,
                              .master = scene->master,
@@ -246,6 +248,12 @@ static void test_a_board_out_of_step_is_said_and_not_compared(void **state)
     assert_said(&s, 2, "ok   frames: 30 refreshes compared");
     assert_shown(&s, "1 of 2 boards in step; 30 refreshes compared, 0 differed\n");
     assert_shown(&s, "     2  locked       0       34    -12.30     5        3        -        -        -\n");
+
+    s = scene();
+    s.out_of_step_from = 180;
+    s.frozen = true;
+    play(&s);
+    assert_said(&s, 1, "BAD  board 3: an operator has frozen its picture");
 
     s = scene();
     s.out_of_step_from = 0;
