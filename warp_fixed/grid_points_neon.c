@@ -8,9 +8,15 @@
 #include "warp_fixed/kernels_scalar.h"
 #include "warp_fixed/neon.h"
 
-/* A block's quadratic, x and y in two lanes: point(k) = first + k step - k (k - 1) / 2 bend. */
+/* What a block's quadratic is made of, at the block's middle; twice as much of each. */
 typedef struct {
-    int32x2_t first, step, bend;
+    int64_t x, y, x_slope, y_slope, turn;
+} middle_t;
+
+/* Quadratics of two blocks: x and y of the one, x and y of the other. point(k) = first + k step - k (k - 1) / 2 bend.
+ */
+typedef struct {
+    uint32x4_t first, step, bend;
 } quadratics_t;
 
 /* Points k to k + 3 of one coordinate, by how much the next four are larger, and by how much that shrinks. */
@@ -18,42 +24,75 @@ typedef struct {
     uint32x4_t point, step, less;
 } four_points_t;
 
-static inline int32x2_t half_of(int64_t x, int64_t y)
+/* @param u_half  The block's begin + end. */
+static inline middle_t block_middle(const grid_row_cursor_t *row, int32_t u_half)
 {
-    return vrshrn_n_s64(vcombine_s64(vcreate_s64((uint64_t)x), vcreate_s64((uint64_t)y)), 1);
-}
-
-static inline quadratics_t block_quadratics(const grid_row_cursor_t *row, int32_t begin, int32_t end, int span_log2)
-{
-    const int32_t u_half = begin + end; /* the block's middle */
     const reciprocal_t over = reciprocal_of(row->w_by_u * u_half + row->w_at_zero);
     const int64_t lifted = over.reciprocal << (over.zeros - row->lift);
-    const int64_t x = row->x.by_u * u_half + row->x.at_zero, y = row->y.by_u * u_half + row->y.at_zero;
-    const int32x2_t middle = half_of(upper_64(x, lifted), upper_64(y, lifted));
-    const int32x2_t slope = half_of(slope_q25_in_64_bits(row->x.slope, over), slope_q25_in_64_bits(row->y.slope, over));
-    const int32x2_t turn = vrshrn_n_s64(vdupq_n_s64(upper_64(row->turn, lifted)), 1);
-    const int32x2_t turn_m = vshl_s32(turn, vdup_n_s32(span_log2 - 1));
-    const int32x2_t square = vshrn_n_s64(vmull_s32(turn_m, turn_m), 32);
+    return (middle_t){
+        .x = upper_64(row->x.by_u * u_half + row->x.at_zero, lifted),
+        .y = upper_64(row->y.by_u * u_half + row->y.at_zero, lifted),
+        .x_slope = slope_q25_in_64_bits(row->x.slope, over),
+        .y_slope = slope_q25_in_64_bits(row->y.slope, over),
+        .turn = upper_64(row->turn, lifted),
+    };
+}
 
-    const int32x2_t slope_3_4 = vsra_n_s32(slope, vneg_s32(slope), 2); /* floor(3 s / 4) = s + floor(-s / 4) */
-    const int32x2_t d = vadd_s32(slope, vshrn_n_s64(vmull_s32(slope_3_4, square), 32));
-    const int32x2_t s_r = vshrn_n_s64(vmull_s32(slope, turn), 32);
-    const int32x2_t bend = vrshr_n_s32(vadd_s32(s_r, vshrn_n_s64(vmull_s32(s_r, square), 32)), 5);
-    const int32x2_t minus_n = vdup_n_s32(begin - end + 1), bend_n = vmul_s32(bend, minus_n);
-    const int64x2_t half_way = vrshrq_n_s64(vmull_s32(d, minus_n), 1); /* -floor(d n / 2) = round(-d n / 2) */
-    const int64x2_t first = vmlsl_s32(half_way, vshl_n_s32(bend_n, 3), minus_n);
-    const int32x2_t step = vsub_s32(d, vshl_n_s32(vadd_s32(bend, bend_n), 5));
-    return (quadratics_t){vadd_s32(middle, vrshrn_n_s64(first, 6)), vrshr_n_s32(step, 6), bend};
+static inline int64x2_t two_numbers(int64_t a, int64_t b)
+{
+    return vcombine_s64(vcreate_s64((uint64_t)a), vcreate_s64((uint64_t)b));
+}
+
+/* @param minus_n  1 - count of each block's points, for x and for y. */
+static inline quadratics_t block_quadratics(const middle_t *a, const middle_t *b, int32x4_t minus_n, int span_log2)
+{
+    const int32x4_t middle = rounded_halves(two_numbers(a->x, a->y), two_numbers(b->x, b->y));
+    const int32x4_t slope = rounded_halves(two_numbers(a->x_slope, a->y_slope), two_numbers(b->x_slope, b->y_slope));
+    const int32x4_t turn = rounded_halves(vdupq_n_s64(a->turn), vdupq_n_s64(b->turn));
+    const int32x4_t turn_m = vshlq_s32(turn, vdupq_n_s32(span_log2 - 1));
+    const int32x4_t square = upper_product(turn_m, turn_m);
+
+    const int32x4_t slope_3_4 = vsraq_n_s32(slope, vnegq_s32(slope), 2); /* floor(3 s / 4) = s + floor(-s / 4) */
+    const int32x4_t d = add_upper_product(slope, slope_3_4, square);
+    const int32x4_t s_r = upper_product(slope, turn);
+    const int32x4_t bend = vrshrq_n_s32(add_upper_product(s_r, s_r, square), 5);
+    const int32x4_t bend_n = vmulq_s32(bend, minus_n), bend_8_n = vshlq_n_s32(bend_n, 3);
+    /* -floor(d n / 2) = round(-d n / 2) */
+    const int64x2_t half_way_a = vrshrq_n_s64(vmull_s32(vget_low_s32(d), vget_low_s32(minus_n)), 1);
+    const int64x2_t half_way_b = vrshrq_n_s64(vmull_high_s32(d, minus_n), 1);
+    const int64x2_t first_a = vmlsl_s32(half_way_a, vget_low_s32(bend_8_n), vget_low_s32(minus_n));
+    const int64x2_t first_b = vmlsl_high_s32(half_way_b, bend_8_n, minus_n);
+    const int32x4_t from_middle = vcombine_s32(vrshrn_n_s64(first_a, 6), vrshrn_n_s64(first_b, 6));
+    const int32x4_t step = vrshrq_n_s32(vsubq_s32(d, vshlq_n_s32(vaddq_s32(bend, bend_n), 5)), 6);
+    return (quadratics_t){vreinterpretq_u32_s32(vaddq_s32(middle, from_middle)), vreinterpretq_u32_s32(step),
+                          vreinterpretq_u32_s32(bend)};
+}
+
+/* @param lane  0 to 3. */
+NEON_INLINE uint32_t lane_of(uint32x4_t v, int lane)
+{
+    switch (lane) {
+    case 0:
+        return vgetq_lane_u32(v, 0);
+    case 1:
+        return vgetq_lane_u32(v, 1);
+    case 2:
+        return vgetq_lane_u32(v, 2);
+    default:
+        return vgetq_lane_u32(v, 3);
+    }
 }
 
 /* point(k + 4) = point(k) + 4 step - (4 k + 6) bend: modulo 2^32 all the way. */
-static inline four_points_t first_points(uint32x4_t first, uint32_t step, uint32x4_t step_4, uint32_t bend,
-                                         uint32x4_t bend_16)
+NEON_INLINE four_points_t first_points(const quadratics_t *two, int lane)
 {
     static const uint32_t by_step[4] = {0, 1, 2, 3}, by_bend[2][4] = {{0, 0, 1, 3}, {6, 10, 14, 18}};
-    const uint32x4_t along_step = vmlaq_n_u32(first, vld1q_u32(by_step), step);
-    return (four_points_t){vmlsq_n_u32(along_step, vld1q_u32(by_bend[0]), bend),
-                           vmlsq_n_u32(step_4, vld1q_u32(by_bend[1]), bend), bend_16};
+    const uint32x4_t first = vdupq_n_u32(lane_of(two->first, lane)), bend = two->bend;
+    const uint32x4_t step_4 = vdupq_n_u32(lane_of(vshlq_n_u32(two->step, 2), lane));
+    const uint32x4_t along_step = vmlaq_n_u32(first, vld1q_u32(by_step), lane_of(two->step, lane));
+    return (four_points_t){vmlsq_n_u32(along_step, vld1q_u32(by_bend[0]), lane_of(bend, lane)),
+                           vmlsq_n_u32(step_4, vld1q_u32(by_bend[1]), lane_of(bend, lane)),
+                           vdupq_n_u32(lane_of(vshlq_n_u32(bend, 4), lane))};
 }
 
 static inline void store_four(int32_t *out, four_points_t *four)
@@ -91,15 +130,10 @@ static inline void store_rest(int32_t *out, uint32x4_t point, int32_t count)
         vst1q_lane_s32(out, vreinterpretq_s32_u32(point), 0);
 }
 
-static inline void block_points(int32_t *x_q18, int32_t *y_q18, quadratics_t block, int32_t count)
+/* @param block  0 or 1: the one that is wanted. */
+NEON_INLINE void block_points(int32_t *x_q18, int32_t *y_q18, const quadratics_t *two, int block, int32_t count)
 {
-    const uint32x2_t first = vreinterpret_u32_s32(block.first), step = vreinterpret_u32_s32(block.step),
-                     bend = vreinterpret_u32_s32(block.bend);
-    const uint32x2_t step_4 = vshl_n_u32(step, 2), bend_16 = vshl_n_u32(bend, 4);
-    four_points_t x = first_points(vdupq_lane_u32(first, 0), vget_lane_u32(step, 0), vdupq_lane_u32(step_4, 0),
-                                   vget_lane_u32(bend, 0), vdupq_lane_u32(bend_16, 0));
-    four_points_t y = first_points(vdupq_lane_u32(first, 1), vget_lane_u32(step, 1), vdupq_lane_u32(step_4, 1),
-                                   vget_lane_u32(bend, 1), vdupq_lane_u32(bend_16, 1));
+    four_points_t x = first_points(two, 2 * block), y = first_points(two, 2 * block + 1);
     for (uint32_t n = (uint32_t)count >> 4; n > 0; n--) {
         store_sixteen(x_q18, &x);
         store_sixteen(y_q18, &y);
@@ -118,6 +152,44 @@ static inline void block_points(int32_t *x_q18, int32_t *y_q18, quadratics_t blo
     store_rest(y_q18, y.point, count);
 }
 
+/* GRID_MAX_SPAN points, whole blocks: without branches, so that the chains of products of all blocks overlap. */
+NEON_INLINE void whole_blocks(int32_t *x_q18, int32_t *y_q18, const grid_row_cursor_t *row, int32_t begin,
+                              int span_log2)
+{
+    const int32_t length = 1 << span_log2, count = GRID_MAX_SPAN >> span_log2;
+    middle_t middle[4];
+    for (int32_t b = 0; b < count; b++)
+        middle[b] = block_middle(row, 2 * begin + (2 * b + 1) * length);
+    for (int32_t b = 0; b < count; b += 2, x_q18 += 2 * length, y_q18 += 2 * length) {
+        const middle_t *next = count == 1 ? &middle[b] : &middle[b + 1];
+        const quadratics_t two = block_quadratics(&middle[b], next, vdupq_n_s32(1 - length), span_log2);
+        block_points(x_q18, y_q18, &two, 0, length);
+        if (count > 1)
+            block_points(x_q18 + length, y_q18 + length, &two, 1, length);
+    }
+}
+
+/* @return Have all of them been written? If not, none was. */
+static inline bool try_whole_blocks(int32_t *x_q18, int32_t *y_q18, const grid_row_cursor_t *row, int32_t begin)
+{
+    const int span_log2 = row->row.span_log2;
+    if ((begin & ((1 << span_log2) - 1)) != 0)
+        return false;
+    switch (span_log2) {
+    case 4:
+        whole_blocks(x_q18, y_q18, row, begin, 4);
+        return true;
+    case 5:
+        whole_blocks(x_q18, y_q18, row, begin, 5);
+        return true;
+    case 6:
+        whole_blocks(x_q18, y_q18, row, begin, 6);
+        return true;
+    default:
+        return false;
+    }
+}
+
 void grid_points_neon(int32_t *restrict x_q18, int32_t *restrict y_q18, const grid_row_cursor_t *row, int32_t begin,
                       int32_t end)
 {
@@ -125,19 +197,16 @@ void grid_points_neon(int32_t *restrict x_q18, int32_t *restrict y_q18, const gr
         grid_points_scalar(x_q18, y_q18, row, begin, end);
         return;
     }
-    const int span_log2 = row->row.span_log2;
-    int32_t block_end = grid_row_block_end(row->row, begin);
-    /* One block: most often so in gentle perspective, and it needs no registers for what the row has left. */
-    if (begin < end && block_end == end) {
-        block_points(x_q18, y_q18, block_quadratics(row, begin, end, span_log2), end - begin);
+    if (end - begin == GRID_MAX_SPAN && try_whole_blocks(x_q18, y_q18, row, begin))
         return;
-    }
     for (int32_t at = begin; at < end;) {
+        const int32_t whole_end = grid_row_block_end(row->row, at), block_end = whole_end < end ? whole_end : end;
         const int32_t count = block_end - at;
-        block_points(x_q18, y_q18, block_quadratics(row, at, block_end, span_log2), count);
+        const middle_t middle = block_middle(row, at + block_end);
+        const quadratics_t twice = block_quadratics(&middle, &middle, vdupq_n_s32(1 - count), row->row.span_log2);
+        block_points(x_q18, y_q18, &twice, 0, count);
         x_q18 += count;
         y_q18 += count;
         at = block_end;
-        block_end = block_end + (1 << span_log2) < end ? block_end + (1 << span_log2) : end;
     }
 }

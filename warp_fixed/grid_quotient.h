@@ -33,9 +33,10 @@ static inline reciprocal_t reciprocal_of(int64_t w)
     const uint64_t d_q64 = (uint64_t)w << zeros, n = d_q64 >> 32;
     const uint64_t s_q29 = ((uint64_t)9 << 29) - n;
     const uint64_t first_q61 = mul_high(s_q29 * s_q29 + ((uint64_t)24 << 58), ((uint64_t)1 << 63) / 99 << 6);
-    const int64_t e_q64 = (int64_t)(0 - 8 * mul_high(first_q61, d_q64)); /* modulo 2^64: |e| is far below 1 / 2 */
-    const int64_t more_q64 = e_q64 + upper_64(e_q64, e_q64);
-    const int64_t most = ((int64_t)first_q61 + upper_64((int64_t)first_q61, more_q64)) >> 30;
+    const uint64_t near_q61 = mul_high(first_q61, d_q64); /* 1 - e */
+    const int64_t e_q64 = (int64_t)(0 - 8 * near_q61);    /* modulo 2^64: |e| is far below 1 / 2 */
+    const uint64_t more_q61 = ((uint64_t)1 << 62) - near_q61 + ((uint64_t)upper_64(e_q64, e_q64) >> 3);
+    const int64_t most = (int64_t)(mul_high(first_q61, more_q61) >> 27);
     const int64_t left = (int64_t)(((uint64_t)1 << 63) - (uint64_t)most * n);
     const int64_t least = most + (((left >> 16) * most - ((int64_t)1 << 42)) >> 47);
     return (reciprocal_t){least + (((uint64_t)1 << 63) - (uint64_t)least * n >= n), zeros};
@@ -56,7 +57,8 @@ static inline int64_t quotient(int64_t value, int64_t reciprocal, int shift)
     return rounded > limit ? limit : rounded < -limit ? -limit : (int64_t)rounded;
 }
 
-/** A change per pixel: with R and z of above, (numerator R / 2^32) R / 2^(shift - 2 z) in Q24; |numerator| <= 2^31. */
+/** A change per pixel: with R and z of above, (numerator R / 2^32) R / 2^(shift - 2 z) in Q24; numerator has 32 bits.
+ */
 typedef struct {
     int64_t numerator;
     int shift;
@@ -90,7 +92,7 @@ static inline slope_t slope_from_numerator(int128_t wide, int32_t exponent)
  */
 static inline int64_t slope_q25_in_64_bits(slope_t slope, reciprocal_t over)
 {
-    const int64_t once = slope.numerator * over.reciprocal >> 32;
+    const int64_t once = upper_64(slope.numerator * ((int64_t)1 << 32), over.reciprocal);
     return once * over.reciprocal >> (slope.shift - 1 - 2 * over.zeros);
 }
 

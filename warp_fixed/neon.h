@@ -147,6 +147,38 @@ static inline int16x4_t add_rounded_high(int32x4_t a, int32x4_t b)
 #endif
 }
 
+/** @return Half of each of four numbers, rounded half up, modulo 2^32. */
+static inline int32x4_t rounded_halves(int64x2_t low, int64x2_t high)
+{
+#ifdef __aarch64__
+    return vrshrn_high_n_s64(vrshrn_n_s64(low, 1), high, 1);
+#else
+    return vcombine_s32(vrshrn_n_s64(low, 1), vrshrn_n_s64(high, 1));
+#endif
+}
+
+/** @return a b / 2^32, rounded down, lane by lane; a or b is above -2^31. */
+static inline int32x4_t upper_product(int32x4_t a, int32x4_t b)
+{
+#ifdef __aarch64__ /* half of floor(2 a b / 2^32) */
+    return vshrq_n_s32(vqdmulhq_s32(a, b), 1);
+#else
+    const int64x2_t low = vmull_s32(vget_low_s32(a), vget_low_s32(b));
+    const int64x2_t high = vmull_s32(vget_high_s32(a), vget_high_s32(b));
+    return vcombine_s32(vshrn_n_s64(low, 32), vshrn_n_s64(high, 32));
+#endif
+}
+
+/** @return sum + the same. */
+static inline int32x4_t add_upper_product(int32x4_t sum, int32x4_t a, int32x4_t b)
+{
+#ifdef __aarch64__
+    return vsraq_n_s32(sum, vqdmulhq_s32(a, b), 1);
+#else
+    return vaddq_s32(sum, upper_product(a, b));
+#endif
+}
+
 /** @return a weights[2 pair] + b weights[2 pair + 1]: v is a, four values, and b. All are below 2^15. */
 NEON_INLINE uint32x4_t two_weighed(uint16x8_t v, uint16x8_t weights, int pair)
 {
