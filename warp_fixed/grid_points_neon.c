@@ -43,29 +43,35 @@ static inline int64x2_t two_numbers(int64_t a, int64_t b)
     return vcombine_s64(vcreate_s64((uint64_t)a), vcreate_s64((uint64_t)b));
 }
 
-/* @param minus_n  1 - count of each block's points, for x and for y. */
-static inline quadratics_t block_quadratics(const middle_t *a, const middle_t *b, int32x4_t minus_n, int span_log2)
+/* A block's first point, from its middle. */
+static inline int32x2_t first_from_middle(int32x2_t d, int32x2_t bend_8_n, int32x2_t minus_n)
 {
-    const int32x4_t middle = rounded_halves(two_numbers(a->x, a->y), two_numbers(b->x, b->y));
-    const int32x4_t slope = rounded_halves(two_numbers(a->x_slope, a->y_slope), two_numbers(b->x_slope, b->y_slope));
-    const int32x4_t turn = rounded_halves(vdupq_n_s64(a->turn), vdupq_n_s64(b->turn));
+    const int64x2_t half_way = vrshrq_n_s64(vmull_s32(d, minus_n), 1); /* -floor(d n / 2) = round(-d n / 2) */
+    return vrshrn_n_s64(vmlsl_s32(half_way, bend_8_n, minus_n), 6);
+}
+
+/* @param b  NULL where only one block is wanted. @param minus_n  1 - count of each block's points, for x and for y. */
+NEON_INLINE quadratics_t block_quadratics(const middle_t *a, const middle_t *b, int32x4_t minus_n, int span_log2)
+{
+    const middle_t *next = b == NULL ? a : b;
+    const int32x4_t middle = rounded_halves(two_numbers(a->x, a->y), two_numbers(next->x, next->y));
+    const int32x4_t slope =
+        rounded_halves(two_numbers(a->x_slope, a->y_slope), two_numbers(next->x_slope, next->y_slope));
+    const int32x4_t turn = rounded_halves(vdupq_n_s64(a->turn), vdupq_n_s64(next->turn));
     const int32x4_t turn_m = vshlq_s32(turn, vdupq_n_s32(span_log2 - 1));
     const int32x4_t square = upper_product(turn_m, turn_m);
 
-    const int32x4_t slope_3_4 = vsraq_n_s32(slope, vnegq_s32(slope), 2); /* floor(3 s / 4) = s + floor(-s / 4) */
+    const int32x4_t slope_3_4 = vhaddq_s32(slope, vshrq_n_s32(slope, 1)); /* floor((s + floor(s / 2)) / 2) */
     const int32x4_t d = add_upper_product(slope, slope_3_4, square);
     const int32x4_t s_r = upper_product(slope, turn);
     const int32x4_t bend = vrshrq_n_s32(add_upper_product(s_r, s_r, square), 5);
     const int32x4_t bend_n = vmulq_s32(bend, minus_n), bend_8_n = vshlq_n_s32(bend_n, 3);
-    /* -floor(d n / 2) = round(-d n / 2) */
-    const int64x2_t half_way_a = vrshrq_n_s64(vmull_s32(vget_low_s32(d), vget_low_s32(minus_n)), 1);
-    const int64x2_t half_way_b = vrshrq_n_s64(vmull_high_s32(d, minus_n), 1);
-    const int64x2_t first_a = vmlsl_s32(half_way_a, vget_low_s32(bend_8_n), vget_low_s32(minus_n));
-    const int64x2_t first_b = vmlsl_high_s32(half_way_b, bend_8_n, minus_n);
-    const int32x4_t from_middle = vcombine_s32(vrshrn_n_s64(first_a, 6), vrshrn_n_s64(first_b, 6));
+    const int32x2_t first_a = first_from_middle(vget_low_s32(d), vget_low_s32(bend_8_n), vget_low_s32(minus_n));
+    const int32x2_t first_b =
+        b == NULL ? first_a : first_from_middle(vget_high_s32(d), vget_high_s32(bend_8_n), vget_high_s32(minus_n));
     const int32x4_t step = vrshrq_n_s32(vsubq_s32(d, vshlq_n_s32(vaddq_s32(bend, bend_n), 5)), 6);
-    return (quadratics_t){vreinterpretq_u32_s32(vaddq_s32(middle, from_middle)), vreinterpretq_u32_s32(step),
-                          vreinterpretq_u32_s32(bend)};
+    return (quadratics_t){vreinterpretq_u32_s32(vaddq_s32(middle, vcombine_s32(first_a, first_b))),
+                          vreinterpretq_u32_s32(step), vreinterpretq_u32_s32(bend)};
 }
 
 /* @param lane  0 to 3. */
@@ -152,42 +158,44 @@ NEON_INLINE void block_points(int32_t *x_q18, int32_t *y_q18, const quadratics_t
     store_rest(y_q18, y.point, count);
 }
 
-/* GRID_MAX_SPAN points, whole blocks: without branches, so that the chains of products of all blocks overlap. */
-NEON_INLINE void whole_blocks(int32_t *x_q18, int32_t *y_q18, const grid_row_cursor_t *row, int32_t begin,
-                              int span_log2)
+/* Two blocks of the same length. */
+NEON_INLINE void two_blocks(int32_t *x_q18, int32_t *y_q18, const middle_t *a, const middle_t *b, int span_log2)
 {
-    const int32_t length = 1 << span_log2, count = GRID_MAX_SPAN >> span_log2;
-    middle_t middle[4];
-    for (int32_t b = 0; b < count; b++)
-        middle[b] = block_middle(row, 2 * begin + (2 * b + 1) * length);
-    for (int32_t b = 0; b < count; b += 2, x_q18 += 2 * length, y_q18 += 2 * length) {
-        const middle_t *next = count == 1 ? &middle[b] : &middle[b + 1];
-        const quadratics_t two = block_quadratics(&middle[b], next, vdupq_n_s32(1 - length), span_log2);
-        block_points(x_q18, y_q18, &two, 0, length);
-        if (count > 1)
-            block_points(x_q18 + length, y_q18 + length, &two, 1, length);
-    }
+    const int32_t length = 1 << span_log2;
+    const quadratics_t two = block_quadratics(a, b, vdupq_n_s32(1 - length), span_log2);
+    block_points(x_q18, y_q18, &two, 0, length);
+    block_points(x_q18 + length, y_q18 + length, &two, 1, length);
 }
 
-/* @return Have all of them been written? If not, none was. */
-static inline bool try_whole_blocks(int32_t *x_q18, int32_t *y_q18, const grid_row_cursor_t *row, int32_t begin)
+/*
+ * GRID_MAX_SPAN points, whole blocks: without branches, so that the chains of products of all blocks overlap.
+ *
+ * @return Have they been written? Not where blocks are short, or do not begin with the first point.
+ */
+static inline bool whole_blocks(int32_t *x_q18, int32_t *y_q18, const grid_row_cursor_t *row, int32_t begin)
 {
     const int span_log2 = row->row.span_log2;
     if ((begin & ((1 << span_log2) - 1)) != 0)
         return false;
-    switch (span_log2) {
-    case 4:
-        whole_blocks(x_q18, y_q18, row, begin, 4);
+    if (span_log2 == 4) {
+        const middle_t a = block_middle(row, 2 * begin + 16), b = block_middle(row, 2 * begin + 48);
+        const middle_t c = block_middle(row, 2 * begin + 80), d = block_middle(row, 2 * begin + 112);
+        two_blocks(x_q18, y_q18, &a, &b, 4);
+        two_blocks(x_q18 + 32, y_q18 + 32, &c, &d, 4);
         return true;
-    case 5:
-        whole_blocks(x_q18, y_q18, row, begin, 5);
-        return true;
-    case 6:
-        whole_blocks(x_q18, y_q18, row, begin, 6);
-        return true;
-    default:
-        return false;
     }
+    if (span_log2 == 5) {
+        const middle_t a = block_middle(row, 2 * begin + 32), b = block_middle(row, 2 * begin + 96);
+        two_blocks(x_q18, y_q18, &a, &b, 5);
+        return true;
+    }
+    if (span_log2 == 6) {
+        const middle_t middle = block_middle(row, 2 * begin + 64);
+        const quadratics_t twice = block_quadratics(&middle, NULL, vdupq_n_s32(-63), 6);
+        block_points(x_q18, y_q18, &twice, 0, 64);
+        return true;
+    }
+    return false;
 }
 
 void grid_points_neon(int32_t *restrict x_q18, int32_t *restrict y_q18, const grid_row_cursor_t *row, int32_t begin,
@@ -197,13 +205,13 @@ void grid_points_neon(int32_t *restrict x_q18, int32_t *restrict y_q18, const gr
         grid_points_scalar(x_q18, y_q18, row, begin, end);
         return;
     }
-    if (end - begin == GRID_MAX_SPAN && try_whole_blocks(x_q18, y_q18, row, begin))
+    if (end - begin == GRID_MAX_SPAN && whole_blocks(x_q18, y_q18, row, begin))
         return;
     for (int32_t at = begin; at < end;) {
         const int32_t whole_end = grid_row_block_end(row->row, at), block_end = whole_end < end ? whole_end : end;
         const int32_t count = block_end - at;
         const middle_t middle = block_middle(row, at + block_end);
-        const quadratics_t twice = block_quadratics(&middle, &middle, vdupq_n_s32(1 - count), row->row.span_log2);
+        const quadratics_t twice = block_quadratics(&middle, NULL, vdupq_n_s32(1 - count), row->row.span_log2);
         block_points(x_q18, y_q18, &twice, 0, count);
         x_q18 += count;
         y_q18 += count;

@@ -57,10 +57,9 @@ static inline int64_t quotient(int64_t value, int64_t reciprocal, int shift)
     return rounded > limit ? limit : rounded < -limit ? -limit : (int64_t)rounded;
 }
 
-/** A change per pixel: with R and z of above, (numerator R / 2^32) R / 2^(shift - 2 z) in Q24; numerator has 32 bits.
- */
+/** A change per pixel: with R and z of above, (numerator R / 2^64) R / 2^(shift - 2 z) in Q24. */
 typedef struct {
-    int64_t numerator;
+    int64_t numerator; /**< its lower 32 bits are 0 */
     int shift;
 } slope_t;
 
@@ -79,11 +78,11 @@ static inline slope_t slope_from_numerator(int128_t wide, int32_t exponent)
     if (high != 0) { /* the common case: the upper 64 bits of wide * 2^(zeros - 1) */
         const int zeros = __builtin_clzll(high);
         const uint64_t upper = (uint64_t)(wide >> 64) << (zeros - 1) | (uint64_t)wide >> 1 >> (64 - zeros);
-        return (slope_t){(int64_t)upper >> 32, at_31_bits - (97 - zeros)};
+        return (slope_t){(int64_t)(upper >> 32 << 32), at_31_bits - (97 - zeros)};
     }
     const int bits = low != 0 ? 64 - __builtin_clzll(low) : 0;
     const int cut = bits > 31 ? bits - 31 : 0;
-    return (slope_t){(int64_t)(wide >> cut), at_31_bits - cut};
+    return (slope_t){(int64_t)(wide >> cut) * ((int64_t)1 << 32), at_31_bits - cut};
 }
 
 /**
@@ -92,7 +91,7 @@ static inline slope_t slope_from_numerator(int128_t wide, int32_t exponent)
  */
 static inline int64_t slope_q25_in_64_bits(slope_t slope, reciprocal_t over)
 {
-    const int64_t once = upper_64(slope.numerator * ((int64_t)1 << 32), over.reciprocal);
+    const int64_t once = upper_64(slope.numerator, over.reciprocal);
     return once * over.reciprocal >> (slope.shift - 1 - 2 * over.zeros);
 }
 
@@ -102,7 +101,7 @@ static inline int64_t slope_q25(slope_t slope, reciprocal_t over)
     const int shift = slope.shift - 2 * over.zeros;
     if (shift >= 11 && shift <= 64) /* the common case */
         return slope_q25_in_64_bits(slope, over);
-    return 2 * quotient(slope.numerator * over.reciprocal >> 32, over.reciprocal, shift);
+    return 2 * quotient(upper_64(slope.numerator, over.reciprocal), over.reciprocal, shift);
 }
 
 #endif
