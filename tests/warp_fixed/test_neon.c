@@ -146,6 +146,30 @@ static void numbers_of_64_bits(void **state)
     }
 }
 
+static void halves_of_products(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed < LANES_ROUNDS; seed++) {
+        round_t r = new_round(seed);
+        for (int i = 0; i < 4; i++)
+            r.b.u32[i] |= 1; /* not both factors are -2^31 */
+        const int32x4_t a = vreinterpretq_s32_u8(r.a.vector), b = vreinterpretq_s32_u8(r.b.vector);
+        const int32x4_t c = vreinterpretq_s32_u8(r.c.vector);
+        for (int i = 0; i < 4; i++)
+            r.expected.s32[i] = (int32_t)((int64_t)r.a.s32[i] * r.b.s32[i] >> 32);
+        check(&r, "upper_product", vreinterpretq_u8_s32(upper_product(a, b)));
+        for (int i = 0; i < 4; i++)
+            r.expected.u32[i] += r.c.u32[i];
+        check(&r, "add_upper_product", vreinterpretq_u8_s32(add_upper_product(c, a, b)));
+        for (int i = 0; i < 2; i++) {
+            r.expected.u32[i] = (uint32_t)(((uint64_t)r.a.s64[i] + 1) >> 1);
+            r.expected.u32[2 + i] = (uint32_t)(((uint64_t)r.b.s64[i] + 1) >> 1);
+        }
+        check(&r, "rounded_halves",
+              vreinterpretq_u8_s32(rounded_halves(vreinterpretq_s64_s32(a), vreinterpretq_s64_s32(b))));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -154,6 +178,7 @@ int main(void)
         cmocka_unit_test(narrower_numbers),
         cmocka_unit_test(sixteen_of_thirty_two_bits),
         cmocka_unit_test(numbers_of_64_bits),
+        cmocka_unit_test(halves_of_products),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
