@@ -168,7 +168,8 @@ NEON_INLINE void two_blocks(int32_t *x_q18, int32_t *y_q18, const middle_t *a, c
 }
 
 /*
- * GRID_MAX_SPAN points, whole blocks: without branches, so that the chains of products of all blocks overlap.
+ * GRID_MAX_SPAN points, whole blocks: without branches, so that the chains of products of all blocks overlap. Of block
+ * b, begin + end is 2 begin + (2 b + 1) length.
  *
  * @return Have they been written? Not where blocks are short, or do not begin with the first point.
  */
