@@ -32,9 +32,11 @@ typedef struct {
     image_t picture;
     uint8_t border[4]; /**< a pixel that is not lit */
     grid_t grid;
-    bool filtered;                      /**< read is what the prefilter makes of the picture */
-    int32_t bands;                      /**< of WARP_BAND_ROWS rows of the panel, the last may have less */
-    uint8_t block_log2[WARP_MAX_BANDS]; /**< size of the band's blocks */
+    bool filtered; /**< read is what the prefilter makes of the picture */
+    int32_t bands; /**< of WARP_BAND_ROWS rows of the panel, the last may have less */
+    bool
+        is_turned; /**< the panel's rows run across the picture's by 30 degrees or more, in the middle of what is lit */
+    uint8_t block_log2[WARP_MAX_BANDS];                                   /**< size of the band's blocks */
     warp_block_t block[WARP_MAX_BANDS][IMAGE_MAX_WIDTH / FOOTPRINT_BAND]; /**< of bands where they have the full size */
 } warp_plane_t;
 

@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include "warp_fixed/color.h"
+#include "warp_fixed/grid_row.h"
 #include "warp_fixed/homography_of_chroma.h"
 #include "warp_fixed/warp.h"
 #include "warp_fixed/warp_convert.h"
@@ -90,6 +91,24 @@ static bool any_lit(const warp_plane_t *plane)
     return lit > 0;
 }
 
+/* Along the lit part of the middle lit row: how far down the picture does it go for each pixel along it? */
+static bool is_turned(const grid_t *grid)
+{
+    int32_t first = 0, last = grid->panel_height - 1;
+    while (first < last && grid->row[first].begin >= grid->row[first].end)
+        first++;
+    while (last > first && grid->row[last].begin >= grid->row[last].end)
+        last--;
+    const int32_t j = (first + last) / 2;
+    int32_t x[2], y[2];
+    if (!grid_point(grid, grid->row[j].begin, j, &x[0], &y[0]) ||
+        !grid_point(grid, grid->row[j].end - 1, j, &x[1], &y[1]))
+        return false;
+    const int64_t along = (int64_t)x[1] - x[0], down = (int64_t)y[1] - y[0];
+    /* tan 30 degrees is a little below 15 / 26 */
+    return 26 * (down < 0 ? -down : down) > 15 * (along < 0 ? -along : along);
+}
+
 /* The step along each axis of the present frame's chroma. */
 static chroma_step_t plan_chroma_step(const warp_t *warp, int32_t k_q16)
 {
@@ -157,6 +176,7 @@ bool warp_plan(warp_t *warp, const warp_kernels_t *kernels, warp_report_t *repor
         plane->bands = (plane->panel.height + WARP_BAND_ROWS - 1) / WARP_BAND_ROWS;
         grid_from_homography(&plane->grid, p == 0 ? homography : &chroma);
         warp->any_lit |= any_lit(plane);
+        plane->is_turned = is_turned(&plane->grid);
     }
     const int32_t lit = plan_units(warp);
     plan_pictures(warp, k_q16);
