@@ -146,6 +146,12 @@ static void print_data(FILE *file, const run_summary_t *summary)
             ",\"poses\":%" PRId64 ",\"load\":%.4f,\"peak\":%.4f,\"errors\":%" PRId64 "},\n",
             room->bitrate, room->data_bitrate, room->fd ? "true" : "false", summary->bus.frames, summary->poses_sent,
             summary->bus.load_ppm / 1e4, run_summary_peak_load_ppm(summary) / 1e4, summary->bus.error_frames);
+    const run_agreement_t agreement = run_record_agreement(summary->record);
+    fprintf(file,
+            "\"agreement\":{\"walls\":%" PRId64 ",\"in_step\":%" PRId64 ",\"differing\":%" PRId64
+            ",\"latency_ms\":%.3f,\"latency_most_ms\":%.3f},\n",
+            agreement.refreshes, agreement.in_step, agreement.differing, agreement.latency_ms_mean,
+            agreement.latency_ms_most);
     fputs("\"boards\":[", file);
     for (int32_t i = 0; i < room->board_count; i++)
         print_board(file, summary, i, stride);

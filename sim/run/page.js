@@ -27,7 +27,7 @@ function fillTop() {
     ", on " + walls + (walls === 1 ? " board" : " boards"));
   tile(judged.length ? gap.toFixed(2) + " dB" : "not judged", "mean distance from the best that any method can show on these walls");
   tile(data.bus.load.toFixed(1) + " %", "mean load of one " + (data.bus.fd ? "CAN FD" : "classic CAN") + " bus at " + data.bus.bitrate / 1000 + " kbit/s");
-  tile(slowest.toFixed(1) + " ms", "a frame on the slowest board, in plain C on one core of this machine");
+  tile(slowest.toFixed(1) + " ms", "a frame on the slowest board, on one core of this machine");
 }
 
 /* Pictures are decoded before they are put in their places, so that all of them change together. */
@@ -184,7 +184,9 @@ function fillLists() {
   fill("bus", [["Kind", (data.bus.fd ? "CAN FD" : "Classic CAN") + pose],
     ["Bit rate", data.bus.bitrate / 1000 + " kbit/s" + (data.bus.fd ? ", data " + data.bus.data_bitrate / 1000 + " kbit/s" : "")],
     ["Frames on the wire", data.bus.frames], ["Poses sent by the tracker", data.real ? "by a client on the port" : data.bus.poses],
-    ["Mean load", data.bus.load.toFixed(2) + " %"], ["Highest load from frame to frame", data.bus.peak.toFixed(2) + " %"], ["Error frames", data.bus.errors]]);
+    ["Mean load", data.bus.load.toFixed(2) + " %"], ["Highest load from frame to frame", data.bus.peak.toFixed(2) + " %"], ["Error frames", data.bus.errors],
+    ["Walls proved in step", data.agreement.in_step + " of " + data.agreement.walls + ", different " + data.agreement.differing],
+    ["Pose to photon", data.agreement.in_step ? data.agreement.latency_ms.toFixed(1) + " ms, at most " + data.agreement.latency_most_ms.toFixed(1) + " ms" : "not known"]]);
   fill("settings", [["Room", data.room], ["Video", data.video], ["Poses", data.poses || "from the bus"], ["Finer original", data.original || "none"],
     ["Viewer's camera", data.camera.width + " × " + data.camera.height + " px, " + (2 * Math.atan(data.camera.width / 2 / data.camera.focal_px[0]) * 180 / Math.PI).toFixed(0) + "° wide"],
     ["Refresh", data.rate_hz + " Hz" + (data.real ? ", " + data.skipped + " skipped" : "")], ["Judged frames", Math.max(...data.boards.map(b => b.judged))]]);
