@@ -9,9 +9,9 @@ enum {
     CAN_ID_FRAME_CLOCK = 0x140, /**< + node */
     CAN_ID_STEP = 0x500,        /**< + node */
     CAN_EPOCHS = 16,
-    CAN_FRAME_CLOCK_PERIOD_MS = 25,
-    CAN_STEP_EVERY = 6,      /**< refreshes: reported are those whose number is a multiple of it */
-    CAN_STEP_PERIOD_MS = 100 /**< which that is at 60 Hz */
+    CAN_FRAME_CLOCK_PERIOD_MS = 25, /**< at the least, for it is sent at blanks: 30 a second at 60 Hz */
+    CAN_STEP_EVERY = 6,             /**< refreshes: reported are those whose number is a multiple of it */
+    CAN_STEP_PERIOD_MS = 100        /**< which that is at 60 Hz */
 };
 
 /** Which refresh has which number, and what belongs to it: see frame_clock.h. */

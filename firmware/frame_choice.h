@@ -16,9 +16,8 @@
 
 enum {
     FRAME_CHOICE_HOUSE_US = 200000, /**< without an edge for so long there is no house signal */
-    FRAME_CHOICE_TIME_US =
-        250, /**< bus time must be right to this: of one picture two boards then say nearly the same */
-    FRAME_CHOICE_EDGE_US = 500 /**< a picture captured so near to the limit may be another board's next one */
+    FRAME_CHOICE_TIME_US = 250, /**< bus time must be right to this, so that boards say nearly the same of a picture */
+    FRAME_CHOICE_EDGE_US = 500  /**< a picture captured so near to the limit may be another board's next one */
 };
 
 /** A picture of the camera, kept. */

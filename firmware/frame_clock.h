@@ -11,10 +11,10 @@
 //   picture  the newest one captured up to start(n) - lag + period / 4
 //
 // Phase and lag are an epoch. One board leads, at first the one with the lowest node number: it announces the epoch
-// every CAN_FRAME_CLOCK_PERIOD_MS, and a new one (panels run faster or slower than bus time, video slides past the
-// panels) FRAME_CLOCK_AHEAD_US before it holds, so that no board misses it. Who has heard nothing for
-// FRAME_CLOCK_PROOF_US, whose own announcements do not get out, or whose panel is more than a quarter of a period off,
-// is not in step, and says so.
+// at the first blank after each CAN_FRAME_CLOCK_PERIOD_MS, and a new one (panels run faster or slower than bus time,
+// video slides past the panels) FRAME_CLOCK_AHEAD_US before it holds, so that no board misses it. Who has heard nothing
+// for FRAME_CLOCK_PROOF_US, whose own announcements do not get out, or whose panel is more than a quarter of a period
+// off, is not in step, and says so.
 //
 // Where the leader has a house signal (genlock), refreshes begin at its edges; else at the leader's own blanks.
 //
@@ -39,8 +39,8 @@ enum {
     FRAME_CLOCK_TURN_US = 50000, /**< more than a refresh at 24 Hz: by then the one before has been heard */
     FRAME_CLOCK_AHEAD_US = 1500000,
     FRAME_CLOCK_PROOF_US = 1000000, /**< less than AHEAD: who has heard something since cannot have missed a change */
-    FRAME_CLOCK_DRIFT_US = 300,     /**< the leader's panel this far from start(n), on average, ends an epoch */
-    FRAME_CLOCK_LAG_REFRESHES = 30  /**< the lag's being wrong for so many refreshes in a row ends one too */
+    FRAME_CLOCK_DRIFT_US = 300, /**< the house signal, or else the leader's panel, so far off on average: a new epoch */
+    FRAME_CLOCK_LAG_REFRESHES = 30 /**< a lag that is wrong for so many refreshes in a row: one too */
 };
 
 /** What holds from one refresh on. */
@@ -78,7 +78,7 @@ typedef struct {
     int64_t own_us, own_since_us; /**< own announcements got out, at last and without a gap since */
     uint8_t counter;
 
-    int32_t off_q8;    /**< mean of off_us */
+    int32_t off_q8;    /**< as leader: mean of how late the house signal, or else the panel, is */
     int32_t off_count; /**< refreshes in it */
     int32_t lag_wrong; /**< refreshes in a row */
 } frame_clock_t;
