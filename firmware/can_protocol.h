@@ -176,7 +176,7 @@ typedef struct {
     uint8_t node;          /**< 1 to CAN_MAX_NODE */
     uint8_t counter;       /**< 0 to 14 */
     uint8_t pose_counter;  /**< of the pose in the newest corrected picture */
-    uint32_t pose_age_ms;  /**< its age, since it was received, when the picture was begun; up to 1023 */
+    uint32_t pose_age_ms;  /**< of the newest pose since it was received, when the step began; up to 1023 */
     uint32_t step_q8;      /**< step k of the newest corrected picture (eq 4, 5), in 1/256; up to 16383, nearly 64 */
     uint32_t warp_time_us; /**< what the newest picture took to make; rounded to 100 us, up to 102300 */
     uint32_t can_faults;   /**< sum of all CAN fault counters; sent modulo 1024 */
@@ -212,7 +212,7 @@ typedef struct {
     warp_filter_t filter;
     warp_resampler_t resampler;
     uint32_t changes;   /**< of the step since start; sent modulo 2^16 */
-    uint32_t wanted_us; /**< what the room's method is expected to take, all stages but the wait; up to 65535 */
+    uint32_t wanted_us; /**< what step 0 is expected to take, all stages but the wait; up to 65535 */
     uint32_t hold_s;    /**< how long a better step must be within reach before it is taken; in units of 4 s */
 } can_quality_t;
 

@@ -13,7 +13,7 @@ typedef enum {
     EVENT_START = 0,    /**< value: node */
     EVENT_STATE = 1,    /**< value: can_board_state_t that it is in now */
     EVENT_FAULTS = 2,   /**< value: can_fault_flag_t of the last half second, when they are others than before */
-    EVENT_METHOD = 3,   /**< value: steps below the room's method */
+    EVENT_METHOD = 3,   /**< value: steps below the room's method, or below the one that an operator wants */
     EVENT_COMMAND = 4,  /**< value: command_kind_t, plus 256 times command_result_t, plus 65536 times the request's
                              command_argument() */
     EVENT_BUS_TIME = 5, /**< value: state of the bus time */

@@ -155,7 +155,7 @@ static void send_time(projector_t *p, int64_t now_us)
     send(p, can_time_encode(&frame, &time), &frame);
 }
 
-/* All boards report the same refreshes. */
+/* What was shown at this refresh; all boards report the same ones. */
 static void send_step(projector_t *p)
 {
     can_step_t step = p->report.agreement;

@@ -23,7 +23,8 @@ typedef struct {
 /** Start to count from now on; the first messages are due at once, those of the stages after the first second. */
 void telemetry_init(telemetry_t *telemetry, int64_t now_us);
 
-/** Send what is due: status, heartbeat, stages, quality and time, each after its CAN_..._PERIOD_MS. Never blocks. */
+/** Send what is due: Step at the refreshes that all boards report; status, stages, quality, time and heartbeat, each
+ *  after its CAN_..._PERIOD_MS. Call it once a refresh. Never blocks. */
 void telemetry_send(projector_t *projector, int64_t now_us);
 
 #endif
