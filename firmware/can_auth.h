@@ -2,6 +2,9 @@
 // Authentication of messages on the bus: AES-CMAC (NIST SP 800-38B, RFC 4493), truncated, with freshness. A room
 // without a key has none of this.
 //
+// Nothing uses it yet: boards and senders make and check no codes, no program loads a key, and the command `session`
+// below is not one of command.h.
+//
 // One 128-bit key for the room (hal_key.h) makes and checks all codes. A code is over one string of bytes; numbers
 // here have their lowest byte first:
 //
@@ -23,8 +26,8 @@
 // Key 000102...0F, session 0x0123456789ABCDEF, request of the six letters "freeze" with identifier 0x600: 21 B2 DE 14
 // 4A 81 23 C0.
 //
-// A stranger who fills a 1 Mbit/s bus with classic messages guesses 5 bytes once in 4 years; boards report each
-// attempt.
+// A stranger who fills a 1 Mbit/s bus with classic messages guesses 5 bytes once in 4 years; each attempt is counted
+// (can_auth_stream_t).
 //
 // A board that has just started knows neither session nor bus time, so that old messages would look new. It learns both
 // by the command `session` (session, then bus time, 8 bytes each): the number that it gave makes this one new, and

@@ -208,7 +208,7 @@ can_check_t can_stage_decode(can_stage_t *stage, const hal_can_frame_t *frame);
 typedef struct {
     uint8_t node;    /**< 1 to CAN_MAX_NODE */
     uint8_t counter; /**< 0 to 14 */
-    uint8_t step;    /**< down from the room's method, 0 to DEGRADE_MAX_STEPS - 1 */
+    uint8_t step;    /**< down from the method that is wanted, 0 to DEGRADE_MAX_STEPS - 1 */
     warp_filter_t filter;
     warp_resampler_t resampler;
     uint32_t changes;   /**< of the step since start; sent modulo 2^16 */

@@ -10,7 +10,7 @@
 // | 2 method: name as text, "" = room's |                                                                |
 // | 3 freeze: 1 or 0                   |                                                                |
 // | 4 pattern: command_pattern_t       |                                                                |
-// | 5 latency: us (4), 0 = least       | us that is wanted from now on (4)                              |
+// | 5 latency: us (4), 0 = least       | us that is wanted from now on (4); kept, without effect yet    |
 // | 6 reboot: the text "reboot"        |                                                                |
 // | 7 log: first event (4)             | first event (4), then EVENT_BYTES for each, up to 50           |
 #ifndef FIRMWARE_COMMAND_H
@@ -46,7 +46,7 @@ typedef enum {
     COMMAND_OK = 0,
     COMMAND_UNKNOWN = 1,   /**< no such command */
     COMMAND_BAD_VALUE = 2, /**< of a wrong length, or a value that is not a legal one */
-    COMMAND_REFUSED = 3,   /**< not allowed: its authentication is missing or wrong */
+    COMMAND_REFUSED = 3,   /**< not allowed: its code (can_auth.h) is missing or wrong; no board has a key yet */
     COMMAND_IMPOSSIBLE = 4 /**< this board cannot do it now */
 } command_result_t;
 

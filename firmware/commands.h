@@ -22,7 +22,7 @@ typedef struct {
     isotp_t link;               /**< hears the board's identifier, CAN_ID_COMMAND + node */
     bool frozen;                /**< the wall keeps its last picture */
     command_pattern_t pattern;  /**< shown in place of the corrected picture, unless it is none */
-    uint32_t wanted_latency_us; /**< 0: the least that the board can do */
+    uint32_t wanted_latency_us; /**< 0: the least that the board can do; no picture is held back for it yet */
     bool reboot;                /**< asked for */
 } commands_t;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contract of the room's secret key: read once at start, from where nobody else can read it.
+// Contract of the room's secret key: read once at start, from where nobody else can read it. For can_auth.h; no program
+// reads one yet.
 #ifndef HAL_HAL_KEY_H
 #define HAL_HAL_KEY_H
 
