@@ -35,7 +35,7 @@ typedef struct {
     int32_t bitrate, data_bitrate; /**< bit/s; 500000 and 2000000 unless stated */
     bool fd;                       /**< pose as one CAN FD frame; true unless stated */
     frame_rate_t refresh;          /**< of all panels; 60 Hz unless stated */
-    int32_t pose_delay_us;         /**< from a pose's capture until every board has it; 2 ms unless stated */
+    int32_t pose_delay_us;         /**< see frame_clock_init(); 2 ms unless stated */
     pose_for_frame_rule_t rule;    /**< which pose a picture is mapped with; the newest one unless stated */
 } room_t;
 
