@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rotations as unit quaternions in Q30: product, logarithm, exponential, and the way between two of them.
+// Rotations as unit quaternions in Q30: logarithm, exponential, and the way between two of them.
 #include "firmware/quaternion.h"
 
 #include <string.h>
@@ -28,7 +28,8 @@ bool quaternion_normalise(int32_t unit[4], const int32_t q[4])
     return true;
 }
 
-void quaternion_multiply(int32_t product[4], const int32_t a[4], const int32_t b[4])
+/* product = a b: first b, then a. */
+static void multiply(int32_t product[4], const int32_t a[4], const int32_t b[4])
 {
     /* Of unit length: no sum exceeds 2^60 by more than what rounding left. */
     const int64_t p[4] = {
@@ -45,7 +46,7 @@ void quaternion_between(int64_t vector_q30[3], const int32_t from[4], const int3
 {
     const int32_t back[4] = {from[0], -from[1], -from[2], -from[3]};
     int32_t difference[4];
-    quaternion_multiply(difference, back, to);
+    multiply(difference, back, to);
     const int64_t sign = difference[0] < 0 ? -1 : 1; /* q and -q are the same rotation */
     const int64_t w = clamp_i64(sign * difference[0], 0, one_q30);
     /* Cosines of a quarter and an eighth of the turn, at most 45 and 22.5 degrees. */
@@ -80,9 +81,9 @@ void quaternion_turn(int32_t turned[4], const int32_t from[4], const int64_t vec
     for (int i = 0; i < 3; i++)
         turn[i + 1] = (int32_t)mul_q30(half[i], ratio);
     for (int n = 0; n < SQUARINGS; n++)
-        quaternion_multiply(turn, turn, turn);
+        multiply(turn, turn, turn);
     int32_t product[4];
-    quaternion_multiply(product, from, turn);
+    multiply(product, from, turn);
     if (!quaternion_normalise(turned, product)) /* the product of two unit quaternions is not short */
         memcpy(turned, from, 4 * sizeof *from);
 }

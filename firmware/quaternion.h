@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rotations as unit quaternions in Q30: product, logarithm, exponential, and the way between two of them.
+// Rotations as unit quaternions in Q30: logarithm, exponential, and the way between two of them.
 //
 // Components are w, x, y, z as in pose_t. Rotation vectors are axis times angle, radians in Q30. Integers only, bounded
 // time; results are within 10^-5 degrees unless told otherwise. Outputs may be inputs.
@@ -11,9 +11,6 @@
 
 /** @return false when q is shorter than 2^-10; unit is then untouched. */
 bool quaternion_normalise(int32_t unit[4], const int32_t q[4]);
-
-/** product = a b: first b, then a. */
-void quaternion_multiply(int32_t product[4], const int32_t a[4], const int32_t b[4]);
 
 /** The rotation vector that leads from one orientation to another, in the frame of the first, at most half a turn:
  *  to = from exp(vector). Within 0.0003 degrees at half a turn, 10^-5 degrees up to a quarter. */
