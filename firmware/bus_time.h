@@ -75,9 +75,9 @@ int64_t bus_time_from_local(const bus_time_t *time, int64_t local_us);
 int64_t bus_time_to_local(const bus_time_t *time, int64_t bus_us);
 
 /**
- * @return Within which from_local(now) is right: six deviations of the line's end, and since the newest pair six
- *         of its rate and 1 ppm for what crystals do. UINT32_MAX while none is known, or a
- *         new one is being found.
+ * @return Within which bus_time_from_local(now_us) is right, us: six deviations of the line's end, and since the newest
+ *         pair six of its rate and 1 ppm for what crystals do. UINT32_MAX while none is known, or a new one is being
+ *         found.
  */
 uint32_t bus_time_error_us(const bus_time_t *time, int64_t now_us);
 

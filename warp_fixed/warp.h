@@ -152,8 +152,9 @@ typedef enum {
  * @param      picture     Source. GRAY8 goes to GRAY8; XRGB8888, RGB888 and BGR888 to XRGB8888; YUYV, UYVY and NV12 to
  *                         XRGB8888, YUYV and NV12. Luma and chroma are warped apart, the chroma at its own size with
  *                         the homography of its pixels (homography_of_chroma.h) and its own step (chroma_step.h), and
- * put together last; for XRGB8888 a panel pixel has the chroma of its rectangle (picture.h), of the picture's kind, and
- * so its size must be even as a picture's of that format. A panel of YUV gets the picture's matrix, whatever its own.
+ *                         put together last; for XRGB8888 a panel pixel has the chroma of its rectangle (picture.h), of
+ *                         the picture's kind, and so its size must be even as a picture's of that format. A panel of
+ *                         YUV gets the picture's matrix, whatever its own.
  * @return false, and nothing written, when a size is not the homography's, or a format or stride is not as above and
  *         in picture.h.
  *

@@ -13,9 +13,10 @@ enum { BUS_CHECK_LEAST_US = 1500000 /**< of watching: three heartbeats, one whol
  * Print one line for each thing looked at: "ok   what" or "BAD  what: what is wrong; what to do".
  *
  * Bad are: a bus with no frame; poses that come less often than 20 a second, with gaps above 100 ms, with lost,
- * repeated, damaged or insane ones, or captured at times that go back; viewers on both kinds of message; boards whose
- * heartbeats stay away, that have started anew, that are not running or report faults; no board; damaged reports; bus
- * errors; a load above 70 %.
+ * repeated, damaged or insane ones, or captured at times that go back; viewers on both kinds of message; capture times
+ * without a tracker's bus time, bus time with gaps or from changing masters; boards whose heartbeats stay away, that
+ * have started anew, that are not running (an operator's freeze or pattern too) or report faults, that have no good bus
+ * time or are not in step, or that differ though they are; no board; damaged reports; bus errors; a load above 70 %.
  *
  * @param watch  Of BUS_CHECK_LEAST_US or more, unless it has heard nothing.
  * @return Bad things found.

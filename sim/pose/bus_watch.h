@@ -26,7 +26,7 @@ typedef struct {
     can_faults_t faults;  /**< as a board would count them */
     bus_watch_rhythm_t poses;
     bool fd, set;              /**< which messages were heard */
-    int64_t capture_us;        /**< of the newest pose, on the tracker's clock, unwrapped from the first one on */
+    int64_t capture_us;        /**< of the newest pose, as sent, unwrapped from the first one on */
     int64_t captured_back;     /**< poses captured before the one ahead of them */
     bool captured;             /**< capture times differ: the tracker gives them */
     int64_t least_us, most_us; /**< arrival minus capture; their difference is the delay's jitter */

@@ -4,9 +4,8 @@
 // Source: SMPTE RIS-OSVP, OpenTrackIO Documentation v1.0.1, "Description of all fields". Read are:
 //   protocol.name        must be OpenTrackIO        protocol.version     [1, x, y]
 //   sourceNumber         1 to 200: the pose's id
-//   transforms           a list: each has translation {x, y, z} in m, rotation {pan, tilt, roll} in degrees, and may
-//   have
-//                        scale; they follow one another from the stage to the camera. A scale other than 1 is refused
+//   transforms           a list: each has translation {x, y, z} in m and rotation {pan, tilt, roll} in degrees; they
+//                        follow one another from the stage to the camera. A scale, if any, must be 1
 //   timing.sampleTimestamp {seconds, nanoseconds}   capture time, where it is there
 //
 // Axes: right-handed, z up. With all angles 0 the camera looks along +y with +x to its right. Rotations are intrinsic

@@ -74,7 +74,7 @@ static void close_room(room_t *room)
     sim_bus_destroy(room->bus);
 }
 
-/* Frame n of the log: every fifth is a report, bus time or FrameClock, every seventh an FD frame; two share each time. */
+/* Frame n of the log: every fifth a report, bus time or FrameClock, every seventh an FD frame; two share each time. */
 static hal_can_frame_t frame_of_log(int n)
 {
     static const uint32_t OTHERS[] = {0x701, 0x040, 0x0BF, 0x17F};
