@@ -6,7 +6,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { EVENT_LOG_ENTRIES = 256, EVENT_BYTES = 9 /**< of an entry as it travels */ };
+enum {
+    EVENT_LOG_ENTRIES = 256,
+    EVENT_BYTES = 9, /**< of an entry as it travels */
+    EVENT_RESULT = 256,
+    EVENT_ARGUMENT = 65536
+};
 
 /** Numbers are never reused for something else. */
 typedef enum {
@@ -14,8 +19,8 @@ typedef enum {
     EVENT_STATE = 1,    /**< value: can_board_state_t that it is in now */
     EVENT_FAULTS = 2,   /**< value: can_fault_flag_t of the last half second, when they are others than before */
     EVENT_METHOD = 3,   /**< value: steps below the room's method, or below the one that an operator wants */
-    EVENT_COMMAND = 4,  /**< value: command_kind_t, plus 256 times command_result_t, plus 65536 times the request's
-                             command_argument() */
+    EVENT_COMMAND = 4,  /**< value: command_kind_t, plus EVENT_RESULT times command_result_t, plus EVENT_ARGUMENT
+                             times the request's command_argument() */
     EVENT_BUS_TIME = 5, /**< value: state of the bus time */
     EVENT_KINDS
 } event_kind_t;

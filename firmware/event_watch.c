@@ -4,7 +4,7 @@
 
 #include "firmware/projector.h"
 
-enum { US_PER_MS = 1000, RESULT_UNIT = 256, ARGUMENT_UNIT = 65536 };
+enum { US_PER_MS = 1000 };
 
 void event_watch_init(event_watch_t *watch, int32_t node)
 {
@@ -42,6 +42,6 @@ void event_watch_command(projector_t *p, const command_t *command, command_resul
     const bool read = result != COMMAND_UNKNOWN && result != COMMAND_BAD_VALUE;
     const int32_t argument = read ? command_argument(command) : 0;
     if (!asks || result != COMMAND_OK)
-        add(p, EVENT_COMMAND, (int32_t)command->kind + RESULT_UNIT * (int32_t)result + ARGUMENT_UNIT * argument,
+        add(p, EVENT_COMMAND, (int32_t)command->kind + EVENT_RESULT * (int32_t)result + EVENT_ARGUMENT * argument,
             now_us);
 }

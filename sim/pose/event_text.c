@@ -10,7 +10,7 @@
 #include "sim/pose/request_text.h"
 #include "sim/run/run_record.h"
 
-enum { MS_PER_S = 1000, RESULT_UNIT = 256, ARGUMENT_UNIT = 65536, FLAGS = 16 };
+enum { MS_PER_S = 1000, FLAGS = 16 };
 
 void event_fault_names(char names[FAULT_NAMES_LENGTH], uint32_t flags)
 {
@@ -32,9 +32,9 @@ static const char *time_state_name(int32_t state)
 
 static void command_text(char value[FAULT_NAMES_LENGTH], uint32_t packed)
 {
-    const uint8_t kind = (uint8_t)packed, result = (uint8_t)(packed / RESULT_UNIT);
+    const uint8_t kind = (uint8_t)packed, result = (uint8_t)(packed / EVENT_RESULT);
     char argument[REQUEST_ARGUMENT_LENGTH];
-    request_argument_text(argument, kind, (uint8_t)(packed / ARGUMENT_UNIT));
+    request_argument_text(argument, kind, (uint8_t)(packed / EVENT_ARGUMENT));
     snprintf(value, FAULT_NAMES_LENGTH, "%s%s: %s", request_name(kind), result == COMMAND_BAD_VALUE ? "" : argument,
              request_result_name(result));
 }
