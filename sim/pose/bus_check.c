@@ -138,11 +138,13 @@ static void check_board_steps(judge_t *judge, int node, const bus_watch_board_t 
 static void check_state(judge_t *judge, int node, can_board_state_t state)
 {
     if (state == CAN_BOARD_FROZEN)
-        say(judge, false, "board %d: an operator has frozen its picture; `wallwarp-pose command freeze off` ends that",
-            node);
+        say(judge, false,
+            "board %d: an operator has frozen its picture; `wallwarp-pose command --node %d freeze off` ends that",
+            node, node);
     else if (state == CAN_BOARD_PATTERN)
         say(judge, false,
-            "board %d: an operator has put a test pattern on; `wallwarp-pose command pattern none` ends that", node);
+            "board %d: an operator has put a test pattern on; `wallwarp-pose command --node %d pattern none` ends that",
+            node, node);
     else if (state != CAN_BOARD_RUNNING)
         say(judge, false, "board %d: is %s, expected running", node, run_state_name(state));
 }

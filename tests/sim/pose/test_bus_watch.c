@@ -224,8 +224,9 @@ static void test_each_fault_of_a_board_is_said(void **state)
     s = scene();
     s.state = CAN_BOARD_FROZEN;
     play(&s);
-    assert_said(&s, 1,
-                "BAD  board 7: an operator has frozen its picture; `wallwarp-pose command freeze off` ends that");
+    assert_said(
+        &s, 1,
+        "BAD  board 7: an operator has frozen its picture; `wallwarp-pose command --node 7 freeze off` ends that");
 
     s = scene();
     s.state = CAN_BOARD_PATTERN;
