@@ -51,7 +51,7 @@ typedef struct {
     int32_t pose_to_photon_us; /**< from that sample's capture to the middle of the refresh that shows the picture */
 } projector_report_t;
 
-/** About 192 MB, one static instance on a board; the simulator makes one for each of its boards before it starts. */
+/** About 201 MB, one static instance on a board; the simulator makes one for each of its boards before it starts. */
 struct projector {
     hal_board_t board;
     int32_t node;

@@ -24,7 +24,7 @@ typedef struct {
     int32_t lane[(LS_MAX_SIZE + LS_TAPS - 1) * LS_LANES]; /**< z, then c, of a strip; three rows of 0 below */
 } ls_strip_t;
 
-/** The axes of the last k, and the last surface: about 143 MB, of which a picture touches 4 times its own bytes. */
+/** The axes of the last k, and the last surface: about 144 MB, of which a picture touches 4 times its own bytes. */
 typedef struct {
     ls_weights_t weights;
     struct {

@@ -58,7 +58,7 @@ typedef struct {
     window_weights_t weights;
 } warp_table_t;
 
-/** Everything a board needs between and within frames; about 192 MB, most of it never touched by small pictures. */
+/** Everything a board needs between and within frames; about 201 MB, most of it never touched by small pictures. */
 typedef struct {
     warp_method_t method;       /**< of the next frames */
     bool filters;               /**< that method filters or makes splines, at some steps at least */

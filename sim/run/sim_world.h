@@ -39,7 +39,7 @@ typedef struct {
 } sim_world_config_t;
 
 /**
- * Make bus, devices and projectors. Uses the heap; about 192 MB of address space per board, mostly untouched.
+ * Make bus, devices and projectors. Uses the heap; about 201 MB of address space per board, mostly untouched.
  *
  * @return NULL with the reason in error.
  */
