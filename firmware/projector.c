@@ -8,6 +8,7 @@
 #include "firmware/warp_steps.h"
 
 _Static_assert((int)ROOM_VIEWERS == (int)CAN_VIEWERS, "a room file may name every viewer");
+_Static_assert((int)FRAME_TAG_VIEWERS == (int)CAN_VIEWERS, "and so may the code in a picture");
 _Static_assert((int)LADDER_STEPS <= (int)DEGRADE_MAX_STEPS, "every ladder must fit");
 
 /* Rows of pictures that hold a tag are not seen, and have no weight. */
