@@ -66,7 +66,7 @@ static const struct argp_option run_options[] = {
     {"camera", KEY_CAMERA, "FORMAT", 0,
      "What the cameras deliver: xrgb8888 (default), rgb888, bgr888, yuyv, uyvy or nv12", 0},
     {"display", KEY_DISPLAY, "FORMAT", 0, "What the displays take besides xrgb8888, if anything: nv12 or yuyv", 0},
-    {"rate", KEY_RATE, "HZ", 0, "Refresh rate (default: the list's own up to 60, or 60)", 0},
+    {"rate", KEY_RATE, "HZ", 0, "Refresh rate, in place of the room's (default: the list's own up to 60, or 60)", 0},
     {"original", KEY_ORIGINAL, "PNG", 0, "A finer original of the picture, to judge by as well", 0},
     {"judge", KEY_JUDGE, "N", 0, "Judge every Nth frame, 0 none (default: 8 frames of the run)", 0},
     {"kernels", KEY_KERNELS, "LEVEL", 0, "Pixel loops: scalar or neon, of the same bytes (default: the fastest)", 0},
