@@ -110,7 +110,7 @@ bool frame_choice_pose(pose_for_frame_t *chosen, const frame_choice_t *choice, c
     const pose_for_frame_picture_t picture = {
         .picture_us = choice->now.capture_us,
         .shown_us = frame_choice_shown_us(choice),
-        .tagged = choice->now.tagged,
+        .tagged = choice->now.tagged && choice->now.tag.viewer == poses->viewer,
         .tag = choice->now.tag,
         .wrap_us = fd ? CAN_POSE_FD_WRAP_US : CAN_POSE_SET_WRAP_US,
     };

@@ -40,8 +40,8 @@ typedef struct {
     int64_t picture_us; /**< when it arrived */
     int64_t shown_us;   /**< when it will be shown: half a frame after the vertical blank is the middle of the panel */
     bool tagged;        /**< it has a tag that could be read; */
-    frame_tag_t tag;  /**< which has the capture time of the pose that it was drawn with; its viewer is not looked at */
-    uint64_t wrap_us; /**< of that time: CAN_POSE_FD_WRAP_US or CAN_POSE_SET_WRAP_US */
+    frame_tag_t tag;    /**< which has the capture time of the pose that it was drawn with; of this viewer */
+    uint64_t wrap_us;   /**< of that time: CAN_POSE_FD_WRAP_US or CAN_POSE_SET_WRAP_US */
 } pose_for_frame_picture_t;
 
 /** What to map the picture with. */

@@ -16,7 +16,7 @@ static const psnr_row_t front = {.method = "area",
                                  .limit_square_error = 6502,
                                  .covered = 100,
                                  .samples = 400,
-                                 .step = {3 << 15, 2 << 16}};
+                                 .step = {.in_q16 = 3 << 15, .all_q16 = 2 << 16}};
 
 static void assert_prints(const psnr_row_t *row, const char *expected)
 {
@@ -65,7 +65,7 @@ static void view_is_the_sum_of_its_walls(void **state)
                              .limit_square_error = 6502 * 2,
                              .covered = 200,
                              .samples = 400,
-                             .step = {1 << 16, 4 << 16}};
+                             .step = {.in_q16 = 1 << 16, .all_q16 = 4 << 16}};
     psnr_row_add(&view, &left);
     assert_prints(&view, "method,psnr_db,limit_db,k_in,k_all,coverage\n"
                          "area,20.000,30.000,1.5000,4.0000,0.7500\n");
