@@ -7,6 +7,7 @@
 #include <poll.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -25,16 +26,22 @@ static void expect_heard(int listener, const char *host, int port)
     struct sockaddr_in to = {.sin_family = AF_INET, .sin_port = htons((uint16_t)port)};
     assert_int_equal(inet_pton(AF_INET, host, &to.sin_addr), 1);
     assert_int_equal(setsockopt(sender, IPPROTO_IP, IP_MULTICAST_IF, &loopback, sizeof loopback), 0);
-    const int64_t sent_us = sim_clock_monotonic_us();
-    assert_int_equal(sendto(sender, "pose", 4, 0, (const struct sockaddr *)&to, sizeof to), 4);
-    struct pollfd ready = {.fd = listener, .events = POLLIN};
-    assert_int_equal(poll(&ready, 1, 5000), 1);
-    usleep(30000); /* it waits, which must not show */
     uint8_t heard[8] = "";
     int64_t arrived_us = 0;
-    assert_int_equal(udp_listen_take(listener, heard, sizeof heard, &arrived_us), 4);
-    assert_memory_equal(heard, "pose", 4);
-    assert_true(arrived_us >= sent_us - 1000 && arrived_us <= sim_clock_monotonic_us() - 29000);
+    bool stamped = false;
+    /* The kernel begins to stamp a moment after it is asked to: until then the time of taking is all there is. */
+    for (int i = 0; i < 50 && !stamped; i++) {
+        const int64_t sent_us = sim_clock_monotonic_us();
+        assert_int_equal(sendto(sender, "pose", 4, 0, (const struct sockaddr *)&to, sizeof to), 4);
+        struct pollfd ready = {.fd = listener, .events = POLLIN};
+        assert_int_equal(poll(&ready, 1, 5000), 1);
+        usleep(30000); /* it waits, which must not show */
+        assert_int_equal(udp_listen_take(listener, heard, sizeof heard, &arrived_us), 4);
+        assert_memory_equal(heard, "pose", 4);
+        assert_true(arrived_us >= sent_us - 1000);
+        stamped = arrived_us <= sim_clock_monotonic_us() - 29000;
+    }
+    assert_true(stamped);
     assert_int_equal(udp_listen_take(listener, heard, sizeof heard, &arrived_us), -1);
     close(sender);
 }
