@@ -27,6 +27,18 @@ can_check_t can_classic_check(const hal_can_frame_t *frame)
     return can_classic_counter(frame) < CAN_E2E_P01_COUNTERS ? CAN_CHECK_OK : CAN_CHECK_COUNTER;
 }
 
+bool can_classic_node_fits(uint8_t node, uint8_t counter)
+{
+    return node >= 1 && node <= CAN_MAX_NODE && counter < CAN_E2E_P01_COUNTERS;
+}
+
+can_check_t can_classic_check_node(const hal_can_frame_t *frame, uint32_t base)
+{
+    if (frame->extended || frame->id <= base || frame->id > base + CAN_MAX_NODE)
+        return CAN_CHECK_OTHER;
+    return can_classic_check(frame);
+}
+
 uint8_t can_classic_counter(const hal_can_frame_t *frame)
 {
     return (uint8_t)can_field_get(frame, COUNTER);

@@ -19,6 +19,16 @@ void can_classic_protect(hal_can_frame_t *frame);
  */
 can_check_t can_classic_check(const hal_can_frame_t *frame);
 
+/** @return Can a board of that node send a message with this counter? */
+bool can_classic_node_fits(uint8_t node, uint8_t counter);
+
+/**
+ * The first step of a decoder of what boards send: the identifier is base + node.
+ *
+ * @return As can_classic_check(), or CAN_CHECK_OTHER when the identifier is not one of 1 to CAN_MAX_NODE nodes.
+ */
+can_check_t can_classic_check_node(const hal_can_frame_t *frame, uint32_t base);
+
 /** @return The counter of a checked message. */
 uint8_t can_classic_counter(const hal_can_frame_t *frame);
 

@@ -12,21 +12,9 @@ static const can_field_t STEP_IN_STEP = {12, 1}, STEP_TAGGED = {13, 1}, STEP_REF
 
 enum { POSE_UNIT_US = 100, LAG_UNIT_US = 8 };
 
-static bool header_fits(uint8_t node, uint8_t counter)
-{
-    return node >= 1 && node <= CAN_MAX_NODE && counter < CAN_E2E_P01_COUNTERS;
-}
-
-static can_check_t check(const hal_can_frame_t *frame, uint32_t base)
-{
-    if (frame->extended || frame->id <= base || frame->id > base + CAN_MAX_NODE)
-        return CAN_CHECK_OTHER;
-    return can_classic_check(frame);
-}
-
 bool can_frame_clock_encode(hal_can_frame_t *frame, const can_frame_clock_t *clock)
 {
-    if (!header_fits(clock->node, clock->counter) || clock->epoch >= CAN_EPOCHS)
+    if (!can_classic_node_fits(clock->node, clock->counter) || clock->epoch >= CAN_EPOCHS)
         return false;
     *frame = can_classic_frame(CAN_ID_FRAME_CLOCK + (uint32_t)clock->node, clock->counter);
     can_field_put(frame, CLOCK_EPOCH, clock->epoch);
@@ -42,7 +30,7 @@ bool can_frame_clock_encode(hal_can_frame_t *frame, const can_frame_clock_t *clo
 
 can_check_t can_frame_clock_decode(can_frame_clock_t *clock, const hal_can_frame_t *frame)
 {
-    const can_check_t found = check(frame, CAN_ID_FRAME_CLOCK);
+    const can_check_t found = can_classic_check_node(frame, CAN_ID_FRAME_CLOCK);
     if (found != CAN_CHECK_OK)
         return found;
     *clock = (can_frame_clock_t){
@@ -61,7 +49,7 @@ can_check_t can_frame_clock_decode(can_frame_clock_t *clock, const hal_can_frame
 
 bool can_step_encode(hal_can_frame_t *frame, const can_step_t *step)
 {
-    if (!header_fits(step->node, step->counter))
+    if (!can_classic_node_fits(step->node, step->counter))
         return false;
     *frame = can_classic_frame(CAN_ID_STEP + (uint32_t)step->node, step->counter);
     can_field_put(frame, STEP_IN_STEP, step->in_step);
@@ -75,7 +63,7 @@ bool can_step_encode(hal_can_frame_t *frame, const can_step_t *step)
 
 can_check_t can_step_decode(can_step_t *step, const hal_can_frame_t *frame)
 {
-    const can_check_t found = check(frame, CAN_ID_STEP);
+    const can_check_t found = can_classic_check_node(frame, CAN_ID_STEP);
     if (found != CAN_CHECK_OK)
         return found;
     *step = (can_step_t){

@@ -20,27 +20,9 @@ static const can_field_t TIME_STATE = {12, 4}, TIME_MASTER = {16, 6}, TIME_CHANG
 
 enum { HOLD_UNIT_S = 4, DRIFT_UNIT_PPB = 100, DRIFT_LARGEST = 8191 };
 
-static bool is_node(uint32_t node)
-{
-    return node >= 1 && node <= CAN_MAX_NODE;
-}
-
-static bool header_fits(uint8_t node, uint8_t counter)
-{
-    return is_node(node) && counter < CAN_E2E_P01_COUNTERS;
-}
-
-/* Is it the report whose identifier is base + node, and whole? */
-static can_check_t check_report(const hal_can_frame_t *frame, uint32_t base)
-{
-    if (frame->extended || frame->id < base || !is_node(frame->id - base))
-        return CAN_CHECK_OTHER;
-    return can_classic_check(frame);
-}
-
 bool can_heartbeat_encode(hal_can_frame_t *frame, const can_heartbeat_t *heartbeat)
 {
-    if (!header_fits(heartbeat->node, heartbeat->counter) || (unsigned)heartbeat->state >= CAN_BOARD_STATES ||
+    if (!can_classic_node_fits(heartbeat->node, heartbeat->counter) || (unsigned)heartbeat->state >= CAN_BOARD_STATES ||
         heartbeat->fault_flags > UINT16_MAX)
         return false;
     *frame = can_classic_frame(CAN_ID_HEARTBEAT + (uint32_t)heartbeat->node, heartbeat->counter);
@@ -54,7 +36,7 @@ bool can_heartbeat_encode(hal_can_frame_t *frame, const can_heartbeat_t *heartbe
 
 can_check_t can_heartbeat_decode(can_heartbeat_t *heartbeat, const hal_can_frame_t *frame)
 {
-    const can_check_t check = check_report(frame, CAN_ID_HEARTBEAT);
+    const can_check_t check = can_classic_check_node(frame, CAN_ID_HEARTBEAT);
     if (check != CAN_CHECK_OK)
         return check;
     const uint32_t state = can_field_get(frame, HEARTBEAT_STATE);
@@ -73,7 +55,7 @@ can_check_t can_heartbeat_decode(can_heartbeat_t *heartbeat, const hal_can_frame
 
 bool can_status_encode(hal_can_frame_t *frame, const can_status_t *status)
 {
-    if (!header_fits(status->node, status->counter))
+    if (!can_classic_node_fits(status->node, status->counter))
         return false;
     const uint32_t warp_time = (uint32_t)(((uint64_t)status->warp_time_us + 50) / 100);
     *frame = can_classic_frame(CAN_ID_STATUS + (uint32_t)status->node, status->counter);
@@ -88,7 +70,7 @@ bool can_status_encode(hal_can_frame_t *frame, const can_status_t *status)
 
 can_check_t can_status_decode(can_status_t *status, const hal_can_frame_t *frame)
 {
-    const can_check_t check = check_report(frame, CAN_ID_STATUS);
+    const can_check_t check = can_classic_check_node(frame, CAN_ID_STATUS);
     if (check != CAN_CHECK_OK)
         return check;
     *status = (can_status_t){
@@ -105,7 +87,7 @@ can_check_t can_status_decode(can_status_t *status, const hal_can_frame_t *frame
 
 bool can_stage_encode(hal_can_frame_t *frame, const can_stage_t *stage)
 {
-    if (!header_fits(stage->node, stage->counter) || (unsigned)stage->stage >= STAGES)
+    if (!can_classic_node_fits(stage->node, stage->counter) || (unsigned)stage->stage >= STAGES)
         return false;
     *frame = can_classic_frame(CAN_ID_STAGE + (uint32_t)stage->node, stage->counter);
     can_field_put(frame, STAGE_NUMBER, stage->stage);
@@ -119,7 +101,7 @@ bool can_stage_encode(hal_can_frame_t *frame, const can_stage_t *stage)
 
 can_check_t can_stage_decode(can_stage_t *stage, const hal_can_frame_t *frame)
 {
-    const can_check_t check = check_report(frame, CAN_ID_STAGE);
+    const can_check_t check = can_classic_check_node(frame, CAN_ID_STAGE);
     if (check != CAN_CHECK_OK)
         return check;
     const uint32_t number = can_field_get(frame, STAGE_NUMBER);
@@ -139,7 +121,7 @@ can_check_t can_stage_decode(can_stage_t *stage, const hal_can_frame_t *frame)
 
 bool can_quality_encode(hal_can_frame_t *frame, const can_quality_t *quality)
 {
-    if (!header_fits(quality->node, quality->counter) || quality->step >= DEGRADE_MAX_STEPS ||
+    if (!can_classic_node_fits(quality->node, quality->counter) || quality->step >= DEGRADE_MAX_STEPS ||
         (unsigned)quality->filter > WARP_FILTER_BUTTER || (unsigned)quality->resampler > WARP_AUTO)
         return false;
     *frame = can_classic_frame(CAN_ID_QUALITY + (uint32_t)quality->node, quality->counter);
@@ -155,7 +137,7 @@ bool can_quality_encode(hal_can_frame_t *frame, const can_quality_t *quality)
 
 can_check_t can_quality_decode(can_quality_t *quality, const hal_can_frame_t *frame)
 {
-    const can_check_t check = check_report(frame, CAN_ID_QUALITY);
+    const can_check_t check = can_classic_check_node(frame, CAN_ID_QUALITY);
     if (check != CAN_CHECK_OK)
         return check;
     const uint32_t step = can_field_get(frame, QUALITY_STEP), filter = can_field_get(frame, QUALITY_FILTER),
@@ -184,7 +166,7 @@ static int32_t drift_in_units(int32_t drift_ppb)
 
 bool can_time_encode(hal_can_frame_t *frame, const can_time_t *time)
 {
-    if (!header_fits(time->node, time->counter) || (unsigned)time->state > CAN_TIME_HOLDOVER ||
+    if (!can_classic_node_fits(time->node, time->counter) || (unsigned)time->state > CAN_TIME_HOLDOVER ||
         time->master > CAN_MAX_NODE)
         return false;
     *frame = can_classic_frame(CAN_ID_TIME + (uint32_t)time->node, time->counter);
@@ -201,7 +183,7 @@ bool can_time_encode(hal_can_frame_t *frame, const can_time_t *time)
 
 can_check_t can_time_decode(can_time_t *time, const hal_can_frame_t *frame)
 {
-    const can_check_t check = check_report(frame, CAN_ID_TIME);
+    const can_check_t check = can_classic_check_node(frame, CAN_ID_TIME);
     if (check != CAN_CHECK_OK)
         return check;
     const uint32_t state = can_field_get(frame, TIME_STATE);
