@@ -97,6 +97,8 @@ static bool open_board(hal_board_t *devices, const options_t *options, const roo
         .picture_height = room->camera.height,
         .panel_width = board->wall.panel_width,
         .panel_height = board->wall.panel_height,
+        .refresh_frames = room->refresh.frames,
+        .refresh_seconds = room->refresh.seconds,
         .bitrate = room->bitrate,
         .data_bitrate = room->data_bitrate,
         .fd = room->fd,

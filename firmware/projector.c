@@ -282,7 +282,8 @@ void projector_step(projector_t *p)
     choose_method(p, deadline_us - now_us); /* what this one took -> the next picture's method */
     drive(p, HAL_GPIO_STROBE, false);
     drive(p, HAL_GPIO_LED, led_level(p->report.state, now_us));
-    telemetry_send(p, now_us); /* what was shown, and how the board does -> bus */
+    drive(p, HAL_GPIO_LAMP, p->report.frame_number > 0); /* light only what is meant to be seen */
+    telemetry_send(p, now_us);                           /* what was shown, and how the board does -> bus */
     event_watch_step(p, now_us);
     if (healthy && !commands_reboot(&p->commands) && hal_watchdog_feed(p->board.watchdog) != HAL_OK)
         p->faults.watchdog++;

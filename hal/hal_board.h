@@ -15,7 +15,7 @@
 #include "hal/hal_watchdog.h"
 #include "hal/hal_workers.h"
 
-enum { HAL_BOARD_ERROR_LENGTH = 256 };
+enum { HAL_BOARD_ERROR_LENGTH = 256, HAL_BOARD_NO_LINE = -1 };
 
 /** The open devices of one board. Handles are opaque; each HAL defines the structs behind them. */
 typedef struct {
@@ -29,6 +29,13 @@ typedef struct {
     void *own;              /**< what the HAL keeps behind its devices, or NULL */
 } hal_board_t;
 
+/** Where the digital lines are. */
+typedef struct {
+    const char *chip;             /**< name or label of the chip that has them; NULL: the board has none */
+    int32_t line[HAL_GPIO_LINES]; /**< by hal_gpio_line_t: its offset on the chip, or HAL_BOARD_NO_LINE: setting it does
+                                     nothing, and no edge ever comes */
+} hal_board_lines_t;
+
 /** What a board is made of: one constant of this type in board/NAME/board.c. Names are the HAL's own. */
 typedef struct {
     const char *name;    /**< of the board, as in BOARD=NAME */
@@ -37,6 +44,8 @@ typedef struct {
                                 there a format may be before it, as in nv12:FILE */
     const char *display; /**< where pictures go: a connector, or in the simulator a folder, or "none"; there a format
                                 that it takes besides XRGB8888 may be before it, as in nv12:none */
+    hal_board_lines_t lines; /**< of no meaning in the simulator, which has them all */
+    const char *watchdog;    /**< device that resets the board, or NULL for none; of no meaning in the simulator */
     hal_workers_settings_t workers; /**< threads that make a picture together */
 } board_table_t;
 
@@ -44,10 +53,11 @@ extern const board_table_t board_table;
 
 /** What the room file asks of the devices. */
 typedef struct {
-    int32_t picture_width, picture_height; /**< of the camera's pictures, pixels */
-    int32_t panel_width, panel_height;     /**< of the projector, pixels */
-    int32_t bitrate, data_bitrate;         /**< of the bus, bit/s */
-    bool fd;                               /**< the bus carries CAN FD */
+    int32_t picture_width, picture_height;   /**< of the camera's pictures, pixels */
+    int32_t panel_width, panel_height;       /**< of the projector, pixels */
+    int32_t refresh_frames, refresh_seconds; /**< of the projector, refreshes a second as a fraction: 60000 / 1001 */
+    int32_t bitrate, data_bitrate;           /**< of the bus, bit/s */
+    bool fd;                                 /**< the bus carries CAN FD */
 } hal_board_needs_t;
 
 /**

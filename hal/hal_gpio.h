@@ -14,6 +14,7 @@ typedef enum {
     HAL_GPIO_LED,     /**< output: state of the board, for people */
     HAL_GPIO_STROBE,  /**< output: high while a new picture is being made, for a scope */
     HAL_GPIO_GENLOCK, /**< input: rising edge once per house frame */
+    HAL_GPIO_LAMP, /**< output: high lets the projector light its lamp; low before the first picture, and at the end */
     HAL_GPIO_LINES
 } hal_gpio_line_t;
 

@@ -17,7 +17,7 @@
 #include "sim/devices/sim_watchdog.h"
 #include "sim/files/png_file.h"
 
-enum { REFRESH_HZ = 60, WATCHDOG_US = 2000000, PICTURE_PERIOD_US = 1000000, LAST_PORT = 65535 };
+enum { WATCHDOG_US = 2000000, PICTURE_PERIOD_US = 1000000, LAST_PORT = 65535 };
 
 _Static_assert((int)HAL_BOARD_ERROR_LENGTH >= (int)FILE_ERROR_LENGTH &&
                    (int)HAL_BOARD_ERROR_LENGTH >= (int)SOCKETCAND_ERROR_LENGTH &&
@@ -141,15 +141,15 @@ static bool open_display(bench_t *b, const board_table_t *table, const hal_board
         .height = needs->panel_height,
         .format = format,
         .clock = b->devices.clock,
-        .blanks = {hal_time_now_us(b->devices.clock), REFRESH_HZ, 1},
+        .blanks = {hal_time_now_us(b->devices.clock), needs->refresh_frames, needs->refresh_seconds},
         .while_waiting = move_world,
         .context = b,
     };
     b->devices.display = sim_display_create(&settings, error);
     if (b->devices.display == NULL)
         return false;
-    fprintf(stderr, "display: %s, %dx%d at %d Hz, %s%s\n", sim_picture_formats[format], needs->panel_width,
-            needs->panel_height, REFRESH_HZ,
+    fprintf(stderr, "display: %s, %dx%d at %.2f Hz, %s%s\n", sim_picture_formats[format], needs->panel_width,
+            needs->panel_height, (double)needs->refresh_frames / needs->refresh_seconds,
             b->folder == NULL ? "no files" : "a PNG each second: ", b->folder == NULL ? "" : b->folder);
     return true;
 }

@@ -64,7 +64,7 @@ void sim_gpio_genlock(hal_gpio_t *gpio, int64_t time_us)
 
 hal_status_t hal_gpio_set(hal_gpio_t *gpio, hal_gpio_line_t line, bool high)
 {
-    if (line != HAL_GPIO_LED && line != HAL_GPIO_STROBE)
+    if (line == HAL_GPIO_GENLOCK || line >= HAL_GPIO_LINES)
         return HAL_BAD_CALL;
     if (gpio->faults.io)
         return HAL_IO;

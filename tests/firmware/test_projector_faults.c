@@ -151,6 +151,19 @@ static void test_led_blinks_until_all_is_well_and_strobe_marks_every_step(void *
     }
 }
 
+static void test_lamp_stays_off_until_a_picture_is_presented(void **state)
+{
+    (void)state;
+    sim_display_faults(devices()->display)->refuse_next = 1;
+    room_bench_step(&bench);
+    assert_false(sim_gpio_level(devices()->gpio, HAL_GPIO_LAMP));
+    room_bench_step(&bench);
+    assert_true(sim_gpio_level(devices()->gpio, HAL_GPIO_LAMP));
+    sim_display_faults(devices()->display)->refuse_next = 1; /* the wall keeps its picture */
+    room_bench_step(&bench);
+    assert_true(sim_gpio_level(devices()->gpio, HAL_GPIO_LAMP));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -165,6 +178,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_gpio_and_watchdog_failures_are_told, open_bench, close_bench),
         cmocka_unit_test_setup_teardown(test_led_blinks_until_all_is_well_and_strobe_marks_every_step, open_bench,
                                         close_bench),
+        cmocka_unit_test_setup_teardown(test_lamp_stays_off_until_a_picture_is_presented, open_bench, close_bench),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
