@@ -5,22 +5,25 @@
 #include "firmware/can_classic.h"
 
 /* The signals of wallwarp.dbc. */
-static const can_field_t CLOCK_EPOCH = {12, 4}, CLOCK_FROM = {16, 16}, CLOCK_PHASE = {32, 16}, CLOCK_LAG = {48, 13},
-                         CLOCK_SURE = {61, 1}, CLOCK_TO_COME = {62, 1}, CLOCK_CHANGES = {63, 1};
+static const can_field_t CLOCK_EPOCH = {12, 4}, CLOCK_FROM = {16, 12}, CLOCK_TARGET = {28, 8}, CLOCK_PHASE = {36, 13},
+                         CLOCK_LAG = {49, 12}, CLOCK_SURE = {61, 1}, CLOCK_TO_COME = {62, 1}, CLOCK_CHANGES = {63, 1};
 static const can_field_t STEP_IN_STEP = {12, 1}, STEP_TAGGED = {13, 1}, STEP_REFRESH = {16, 16},
                          STEP_PICTURE = {32, 16}, STEP_POSE = {48, 16};
 
-enum { POSE_UNIT_US = 100, LAG_UNIT_US = 8 };
+enum { POSE_UNIT_US = 100 };
+enum { MOST_PHASE_US = 8191 * CAN_FRAME_CLOCK_PHASE_UNIT_US, MOST_LAG_US = 4095 * CAN_FRAME_CLOCK_LAG_UNIT_US };
 
 bool can_frame_clock_encode(hal_can_frame_t *frame, const can_frame_clock_t *clock)
 {
-    if (!can_classic_node_fits(clock->node, clock->counter) || clock->epoch >= CAN_EPOCHS)
+    if (!can_classic_node_fits(clock->node, clock->counter) || clock->epoch >= CAN_EPOCHS ||
+        clock->from >= CAN_FRAME_CLOCK_NUMBERS || clock->phase_us > MOST_PHASE_US || clock->lag_us > MOST_LAG_US)
         return false;
     *frame = can_classic_frame(CAN_ID_FRAME_CLOCK + (uint32_t)clock->node, clock->counter);
     can_field_put(frame, CLOCK_EPOCH, clock->epoch);
     can_field_put(frame, CLOCK_FROM, clock->from);
-    can_field_put(frame, CLOCK_PHASE, clock->phase_us);
-    can_field_put(frame, CLOCK_LAG, clock->lag_us / LAG_UNIT_US);
+    can_field_put(frame, CLOCK_TARGET, clock->target_ms);
+    can_field_put(frame, CLOCK_PHASE, clock->phase_us / CAN_FRAME_CLOCK_PHASE_UNIT_US);
+    can_field_put(frame, CLOCK_LAG, clock->lag_us / CAN_FRAME_CLOCK_LAG_UNIT_US);
     can_field_put(frame, CLOCK_SURE, clock->sure);
     can_field_put(frame, CLOCK_TO_COME, clock->to_come);
     can_field_put(frame, CLOCK_CHANGES, clock->changes);
@@ -38,8 +41,9 @@ can_check_t can_frame_clock_decode(can_frame_clock_t *clock, const hal_can_frame
         .counter = can_classic_counter(frame),
         .epoch = (uint8_t)can_field_get(frame, CLOCK_EPOCH),
         .from = (uint16_t)can_field_get(frame, CLOCK_FROM),
-        .phase_us = (uint16_t)can_field_get(frame, CLOCK_PHASE),
-        .lag_us = (uint16_t)(can_field_get(frame, CLOCK_LAG) * LAG_UNIT_US),
+        .phase_us = (uint16_t)(can_field_get(frame, CLOCK_PHASE) * CAN_FRAME_CLOCK_PHASE_UNIT_US),
+        .lag_us = (uint16_t)(can_field_get(frame, CLOCK_LAG) * CAN_FRAME_CLOCK_LAG_UNIT_US),
+        .target_ms = (uint8_t)can_field_get(frame, CLOCK_TARGET),
         .sure = can_field_get(frame, CLOCK_SURE) == 1,
         .to_come = can_field_get(frame, CLOCK_TO_COME) == 1,
         .changes = can_field_get(frame, CLOCK_CHANGES) == 1,

@@ -2,7 +2,8 @@
 // What an operator may tell a board over the bus: requests and replies as bytes of an ISO-TP message.
 //
 // A request is a command_kind_t and what belongs to it; a reply is the same number plus 128, a command_result_t, and,
-// when that is COMMAND_OK, what was asked for. Numbers have their low byte first.
+// when that is COMMAND_OK, what was asked for, or when it is COMMAND_IMPOSSIBLE, why. Numbers have their low byte
+// first.
 //
 // | request                            | reply, after the result                                        |
 // |------------------------------------|----------------------------------------------------------------|
@@ -10,7 +11,8 @@
 // | 2 method: name as text, "" = room's |                                                                |
 // | 3 freeze: 1 or 0                   |                                                                |
 // | 4 pattern: command_pattern_t       |                                                                |
-// | 5 latency: us (4), 0 = least       | us that is wanted from now on (4); kept, without effect yet    |
+// | 5 latency: us (4), 0 = least       | us that this board's pose to photon will be (4); impossible:   |
+// |                                    | the least (4) and the most (4) that all boards can have alike  |
 // | 6 reboot: the text "reboot"        |                                                                |
 // | 7 log: first event (4)             | first event (4), then EVENT_BYTES for each, up to 50           |
 #ifndef FIRMWARE_COMMAND_H
@@ -64,7 +66,7 @@ typedef struct {
     const warp_method_t *method; /**< COMMAND_METHOD: NULL is the room's own */
     bool freeze;
     command_pattern_t pattern;
-    uint32_t latency_us; /**< up to COMMAND_MOST_LATENCY_US */
+    uint32_t latency_us; /**< up to COMMAND_MOST_LATENCY_US; see frame_latency.h */
     uint32_t first_event;
 } command_t;
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "firmware/byte_order.h"
+#include "firmware/frame_latency.h"
 #include "firmware/projector.h"
 #include "firmware/version.h"
 
@@ -33,7 +34,22 @@ static command_result_t use_method(projector_t *p, const warp_method_t *method)
     return COMMAND_OK;
 }
 
-static command_result_t execute(projector_t *p, const command_t *command)
+/* In whole milliseconds, as Latency says it. */
+static int32_t wanted_ms(const command_t *command)
+{
+    return (int32_t)((command->latency_us + 999) / 1000);
+}
+
+static command_result_t want_latency(projector_t *p, const command_t *command, int64_t now_us)
+{
+    const int32_t wanted = wanted_ms(command);
+    if (wanted != 0 && !frame_latency_of_wish(&p->choice.clock, wanted, now_us).possible)
+        return COMMAND_IMPOSSIBLE;
+    p->commands.wanted_latency_ms = wanted;
+    return COMMAND_OK;
+}
+
+static command_result_t execute(projector_t *p, const command_t *command, int64_t now_us)
 {
     commands_t *c = &p->commands;
     switch (command->kind) {
@@ -46,8 +62,7 @@ static command_result_t execute(projector_t *p, const command_t *command)
         c->pattern = command->pattern;
         break;
     case COMMAND_LATENCY:
-        c->wanted_latency_us = command->latency_us;
-        break;
+        return want_latency(p, command, now_us);
     case COMMAND_REBOOT:
         c->reboot = true;
         break;
@@ -59,8 +74,9 @@ static command_result_t execute(projector_t *p, const command_t *command)
 }
 
 /* What was asked for. @return Bytes, after the header. */
-static int put_answer(const projector_t *p, const command_t *command, uint8_t *bytes)
+static int put_answer(const projector_t *p, const command_t *command, uint8_t *bytes, int64_t now_us)
 {
+    frame_latency_t latency;
     uint32_t first = command->first_event;
     int events = 0;
     switch (command->kind) {
@@ -70,7 +86,8 @@ static int put_answer(const projector_t *p, const command_t *command, uint8_t *b
         memcpy(bytes + 1 + NUMBER_BYTES, firmware_version, sizeof firmware_version - 1);
         return 1 + NUMBER_BYTES + (int)sizeof firmware_version - 1;
     case COMMAND_LATENCY:
-        put_u32(bytes, p->commands.wanted_latency_us);
+        latency = frame_latency_of_wish(&p->choice.clock, p->commands.wanted_latency_ms, now_us);
+        put_u32(bytes, (uint32_t)latency.will_us);
         return NUMBER_BYTES;
     case COMMAND_LOG:
         events = event_log_pack(&p->events.log, bytes + NUMBER_BYTES, &first, COMMAND_MOST_EVENTS);
@@ -85,6 +102,17 @@ static int put_answer(const projector_t *p, const command_t *command, uint8_t *b
     return 0;
 }
 
+/* Why it is impossible, for the commands that have more to say than that. @return Bytes, after the header. */
+static int put_reason(const projector_t *p, const command_t *command, uint8_t *bytes, int64_t now_us)
+{
+    if (command->kind != COMMAND_LATENCY)
+        return 0;
+    const frame_latency_t latency = frame_latency_of_wish(&p->choice.clock, wanted_ms(command), now_us);
+    put_u32(bytes, (uint32_t)latency.least_us);
+    put_u32(bytes + NUMBER_BYTES, (uint32_t)latency.most_us);
+    return 2 * NUMBER_BYTES;
+}
+
 /* @return Bytes of the reply. */
 static int answer(projector_t *p, uint8_t reply[COMMAND_REPLY_BYTES], const uint8_t *request, int length,
                   int64_t now_us)
@@ -92,11 +120,13 @@ static int answer(projector_t *p, uint8_t reply[COMMAND_REPLY_BYTES], const uint
     command_t command = {.kind = (command_kind_t)request[0]};
     command_result_t result = command_decode(&command, request, length);
     if (result == COMMAND_OK)
-        result = execute(p, &command);
+        result = execute(p, &command, now_us);
     event_watch_command(p, &command, result, now_us);
     reply[0] = request[0] | COMMAND_REPLY_FLAG;
     reply[1] = (uint8_t)result;
-    return HEADER_BYTES + (result == COMMAND_OK ? put_answer(p, &command, reply + HEADER_BYTES) : 0);
+    if (result == COMMAND_IMPOSSIBLE)
+        return HEADER_BYTES + put_reason(p, &command, reply + HEADER_BYTES, now_us);
+    return HEADER_BYTES + (result == COMMAND_OK ? put_answer(p, &command, reply + HEADER_BYTES, now_us) : 0);
 }
 
 void commands_step(projector_t *p, int64_t now_us)

@@ -19,11 +19,11 @@ enum { COMMANDS_FRAMES = 8 /**< sent per step at most */ };
 
 /** The link to operators, and what they want of the board. No pointers inside. */
 typedef struct {
-    isotp_t link;               /**< hears the board's identifier, CAN_ID_COMMAND + node */
-    bool frozen;                /**< the wall keeps its last picture */
-    command_pattern_t pattern;  /**< shown in place of the corrected picture, unless it is none */
-    uint32_t wanted_latency_us; /**< 0: the least that the board can do; no picture is held back for it yet */
-    bool reboot;                /**< asked for */
+    isotp_t link;              /**< hears the board's identifier, CAN_ID_COMMAND + node */
+    bool frozen;               /**< the wall keeps its last picture */
+    command_pattern_t pattern; /**< shown in place of the corrected picture, unless it is none */
+    int32_t wanted_latency_ms; /**< pose to photon, of all boards alike (frame_latency.h); 0: each as early as it can */
+    bool reboot;               /**< asked for */
 } commands_t;
 
 /** Begin to listen; nothing is asked for. @param node  1 to CAN_MAX_NODE. */

@@ -9,6 +9,7 @@
 #include "firmware/bus_master.h"
 #include "firmware/frame_clock.h"
 #include "firmware/frame_tag.h"
+#include "firmware/picture_lag.h"
 #include "firmware/pose_for_frame.h"
 #include "firmware/pose_from_can.h"
 #include "hal/hal_camera.h"
@@ -17,7 +18,8 @@
 enum {
     FRAME_CHOICE_HOUSE_US = 200000, /**< without an edge for so long there is no house signal */
     FRAME_CHOICE_TIME_US = 250, /**< bus time must be right to this, so that boards say nearly the same of a picture */
-    FRAME_CHOICE_EDGE_US = 500  /**< a picture captured so near to the limit may be another board's next one */
+    FRAME_CHOICE_WAITING = HAL_CAMERA_LENT - 1, /**< pictures that may be captured, but not due yet */
+    FRAME_CHOICE_EDGE_US = 500 /**< a picture captured so near to the limit may be another board's next one */
 };
 
 /** A picture of the camera, kept. */
@@ -33,13 +35,18 @@ typedef struct {
 typedef struct {
     frame_clock_t clock;
     pose_for_frame_rule_t rule;
-    int32_t hidden_px;        /**< rows of every picture that hold the tag, and are not shown; 0 without tags */
-    kept_picture_t now, next; /**< shown now; captured, but not due yet */
-    int64_t interval_us;      /**< between the newest two pictures; 0: unknown */
-    bool house_any;           /**< an edge of the house signal has come: */
-    int64_t house_us;         /**< the newest, on the board's clock */
+    int32_t hidden_px;  /**< rows of every picture that hold the tag, and are not shown; 0 without tags */
+    kept_picture_t now; /**< shown now */
+    kept_picture_t waiting[FRAME_CHOICE_WAITING]; /**< captured, but not due yet, oldest first; */
+    int32_t waiting_count;                        /**< so many */
+    int64_t interval_us;                          /**< between the newest two pictures; 0: unknown */
+    picture_lag_t lag;
+    int32_t wanted_ms; /**< what an operator wants of this board (frame_latency.h); the caller's to set */
+    bool house_any;    /**< an edge of the house signal has come: */
+    int64_t house_us;  /**< the newest, on the board's clock */
 
     frame_step_t step;      /**< this refresh */
+    bool genlocked;         /**< and there is a house signal */
     bool picture_certain;   /**< `now` is certain to be every board's picture */
     pose_history_t history; /**< the poses that count for this refresh */
     bool pose_certain;      /**< and the newest of them is every board's */
@@ -48,24 +55,28 @@ typedef struct {
 
 /** How the room wants it. */
 typedef struct {
-    frame_rate_t refresh;
-    int32_t pose_delay_us; /**< see frame_clock_init() */
+    frame_clock_settings_t clock;
     pose_for_frame_rule_t rule;
     int32_t width, height; /**< of the camera's pictures */
 } frame_choice_settings_t;
 
 /** @return false when tags are asked for and pictures of this size have no room for them. */
-bool frame_choice_init(frame_choice_t *choice, const frame_choice_settings_t *settings, uint8_t node, int64_t now_us);
+bool frame_choice_init(frame_choice_t *choice, const frame_choice_settings_t *settings, int64_t now_us);
 
 /**
  * Keep a picture that the camera has lent; it is shown when it is due.
  *
- * @param frame  Not GRAY8, of the settings' size. Only when frame_choice_wants_picture().
+ * @param frame     Not GRAY8, of the settings' size. Only when frame_choice_wants_picture().
+ * @param blank_us  The newest vertical blank, on the board's clock: the first one that the picture was here at.
  */
-void frame_choice_keep(frame_choice_t *choice, const hal_camera_frame_t *frame, const bus_master_t *time);
+void frame_choice_keep(frame_choice_t *choice, const hal_camera_frame_t *frame, const bus_master_t *time,
+                       int64_t blank_us);
 
 /** @return Is there room for another picture? */
 bool frame_choice_wants_picture(const frame_choice_t *choice);
+
+/** @return The picture that was kept last; its `any` is false before the first. */
+const kept_picture_t *frame_choice_newest(const frame_choice_t *choice);
 
 /** Take the edges of the house signal that have come. Only the newest counts. @return false when the line fails. */
 bool frame_choice_take_edges(frame_choice_t *choice, hal_gpio_t *gpio);
@@ -89,7 +100,7 @@ void frame_choice_step(frame_choice_t *choice, const can_poses_t *poses, const b
 bool frame_choice_pose(pose_for_frame_t *chosen, const frame_choice_t *choice, const can_poses_t *poses,
                        const camera_t *camera);
 
-/** @return Bus time of the middle of the next refresh, which shows what is drawn now. */
+/** @return Bus time of the middle of the next refresh, which shows what is drawn now, as it is seen on the wall. */
 int64_t frame_choice_shown_us(const frame_choice_t *choice);
 
 /** @return The picture to be shown, without the rows of a tag. Only when choice->now.any. */
@@ -97,5 +108,8 @@ picture_t frame_choice_picture(const frame_choice_t *choice);
 
 /** @return What this board shows, for its Step message; node and counter are the caller's. */
 can_step_t frame_choice_report(const frame_choice_t *choice);
+
+/** @return What keeps picture and pose of this refresh from being certain to be every board's. */
+can_step_fault_t frame_choice_fault(const frame_choice_t *choice);
 
 #endif

@@ -2,14 +2,23 @@
 // The same frame on all walls: what is heard, and what it says of a refresh.
 #include "firmware/frame_clock.h"
 
+#include "firmware/frame_latency.h"
 #include "firmware/frame_lead.h"
 
 enum { OWN_RUN_US = 150000, STALE_REFRESHES = 12 };
 
-void frame_clock_init(frame_clock_t *clock, uint8_t node, frame_rate_t rate, int32_t pose_delay_us, int64_t now_us)
+void frame_clock_init(frame_clock_t *clock, const frame_clock_settings_t *settings, int64_t now_us)
 {
+    const int32_t unit_us = CAN_LATENCY_DISPLAY_UNIT_US;
     *clock = (frame_clock_t){
-        .node = node, .rate = rate, .pose_delay_us = pose_delay_us, .quiet_since_us = now_us, .due_us = now_us};
+        .node = settings->node,
+        .rate = settings->rate,
+        .pose_delay_us = settings->pose_delay_us,
+        .display_us = (settings->display_us + unit_us / 2) / unit_us * unit_us,
+        .begun_us = now_us,
+        .quiet_since_us = now_us,
+        .due_us = now_us,
+    };
 }
 
 /* The refresh whose start is nearest. */
@@ -23,9 +32,8 @@ int64_t frame_clock_start_us(const frame_clock_t *clock, int64_t number)
     return frame_rate_length_us(clock->rate, number) + clock->now.phase_us;
 }
 
-int64_t frame_clock_picture_number(const frame_clock_t *clock, int64_t capture_bus_us)
+int64_t frame_clock_picture_number(const frame_clock_t *clock, const frame_epoch_t *epoch, int64_t capture_bus_us)
 {
-    const frame_epoch_t *epoch = &clock->now;
     /* start(n) >= capture + lag - period / 4, and start(n - 1) is not */
     const int64_t least_us = capture_bus_us + epoch->lag_us - frame_rate_period_us(clock->rate) / 4 - epoch->phase_us;
     return frame_rate_before(clock->rate, least_us - 1) + 1;
@@ -34,12 +42,23 @@ int64_t frame_clock_picture_number(const frame_clock_t *clock, int64_t capture_b
 /* The number congruent to `from` that is nearest to n. */
 static int64_t extend(uint16_t from, int64_t n)
 {
-    return n + (int16_t)(uint16_t)(from - (uint16_t)n);
+    const int64_t half = CAN_FRAME_CLOCK_NUMBERS / 2, ahead = (from - n) & (CAN_FRAME_CLOCK_NUMBERS - 1);
+    return n + (ahead < half ? ahead : ahead - 2 * half);
 }
 
 static bool same_epoch(const frame_epoch_t *a, const frame_epoch_t *b)
 {
-    return a->any && b->any && a->number == b->number && a->phase_us == b->phase_us && a->lag_us == b->lag_us;
+    return a->any && b->any && a->number == b->number && a->phase_us == b->phase_us && a->lag_us == b->lag_us &&
+           a->target_ms == b->target_ms;
+}
+
+/* An epoch that was noticed only now: what held before it is not known. */
+static void catch_up(frame_clock_t *clock, const frame_epoch_t *epoch)
+{
+    clock->missed += clock->proven;
+    clock->now = *epoch;
+    clock->before.any = false;
+    clock->proven = false;
 }
 
 /* Is a newer than b? Numbers wrap: half of them are newer. */
@@ -112,11 +131,8 @@ static void obey(frame_clock_t *clock, const frame_epoch_t *epoch, const can_fra
         clock->next = *epoch;
         return;
     }
-    if (!same_epoch(epoch, &clock->now)) {
-        clock->missed += clock->proven;
-        clock->now = *epoch;
-        clock->proven = false;
-    }
+    if (!same_epoch(epoch, &clock->now))
+        catch_up(clock, epoch);
     clock->next.any &= heard->changes;
     if (!heard->sure || (heard->changes && !clock->next.any))
         return; /* what was proven until now stays so: there is time to hear of the change */
@@ -124,27 +140,41 @@ static void obey(frame_clock_t *clock, const frame_epoch_t *epoch, const can_fra
     clock->proven_us = now_us;
 }
 
+static can_check_t hear_latency(frame_clock_t *clock, const hal_can_frame_t *frame, int64_t now_us)
+{
+    can_latency_t latency;
+    const can_check_t check = can_latency_decode(&latency, frame);
+    if (check == CAN_CHECK_OK && !frame->own)
+        room_latency_note(&clock->room, &latency, now_us);
+    return check;
+}
+
 can_check_t frame_clock_hear(frame_clock_t *clock, const hal_can_frame_t *frame, int64_t now_us, int64_t now_bus_us)
 {
     can_frame_clock_t heard;
     const can_check_t check = can_frame_clock_decode(&heard, frame);
+    if (check == CAN_CHECK_OTHER)
+        return hear_latency(clock, frame, now_us);
     if (check != CAN_CHECK_OK)
         return check;
     if (frame->own) {
         hear_own(clock, &heard, now_us);
         return CAN_CHECK_OK;
     }
-    frame_epoch_t epoch = {.any = true, .number = heard.epoch, .phase_us = heard.phase_us, .lag_us = heard.lag_us};
+    frame_epoch_t epoch = {
+        .any = true,
+        .number = heard.epoch,
+        .phase_us = heard.phase_us,
+        .lag_us = heard.lag_us,
+        .target_ms = heard.target_ms,
+    };
     const int64_t number = nearest(clock, &epoch, now_bus_us);
     epoch.from = extend(heard.from, number);
     if (epoch.from < number - (heard.to_come ? 1 : STALE_REFRESHES))
         return CAN_CHECK_OK; /* it has waited long in a queue */
     clock->proven = is_proven(clock, now_us);
-    if (!heard.to_come && clock->proven && is_newer(&epoch, &clock->now)) {
-        clock->now = epoch; /* the others are ahead: a change was missed */
-        clock->proven = false;
-        clock->missed++;
-    }
+    if (!heard.to_come && clock->proven && is_newer(&epoch, &clock->now))
+        catch_up(clock, &epoch); /* the others are ahead */
     if (!is_better(clock, &heard, &epoch, now_us))
         return CAN_CHECK_OK;
     frame_clock_follow(clock, heard.node);
@@ -152,38 +182,67 @@ can_check_t frame_clock_hear(frame_clock_t *clock, const hal_can_frame_t *frame,
     return CAN_CHECK_OK;
 }
 
-/* The refresh of the epoch that holds for it. */
+/* The number of this refresh, of the epoch that holds for it. */
+static int64_t find_number(frame_clock_t *clock, const frame_blank_t *blank)
+{
+    const int64_t number = nearest(clock, &clock->now, blank->blank_us);
+    if (!clock->next.any || number < clock->next.from)
+        return number;
+    /* Who has lost the leader, or as leader the others, since cannot know whether they have changed. */
+    clock->proven &= blank->now_us - clock->proven_us < FRAME_CLOCK_SILENT_US;
+    if (clock->proven) {
+        clock->before = clock->now;
+        clock->now = clock->next;
+    }
+    clock->next.any = false;
+    return nearest(clock, &clock->now, blank->blank_us);
+}
+
 static frame_step_t find_step(frame_clock_t *clock, const frame_blank_t *blank)
 {
-    const int64_t blank_us = blank->blank_us;
-    int64_t number = nearest(clock, &clock->now, blank_us);
-    if (clock->next.any && number >= clock->next.from) {
-        /* Who has lost the leader, or as leader the others, since cannot know whether they have changed. */
-        clock->proven &= blank->now_us - clock->proven_us < FRAME_CLOCK_SILENT_US;
-        if (clock->proven)
-            clock->now = clock->next;
-        clock->next.any = false;
-        number = nearest(clock, &clock->now, blank_us);
-    }
-    const int64_t start_us = frame_clock_start_us(clock, number);
-    return (frame_step_t){
+    const int64_t number = find_number(clock, blank);
+    const int32_t held = frame_latency_held(clock, clock->now.target_ms);
+    frame_step_t step = {
         .number = number,
-        .start_us = start_us,
-        .pose_limit_us = start_us - clock->pose_delay_us,
-        .picture_limit_us = start_us - clock->now.lag_us + frame_rate_period_us(clock->rate) / 4,
-        .off_us = (int32_t)(blank_us - start_us),
+        .content = number - held,
+        .held = held,
+        .epoch = clock->now,
+        .off_us = (int32_t)(blank->blank_us - frame_clock_start_us(clock, number)),
     };
+    if (step.content < clock->now.from && clock->before.any)
+        step.epoch = clock->before;
+    step.start_us = frame_rate_length_us(clock->rate, step.content) + step.epoch.phase_us;
+    step.pose_limit_us = step.start_us - clock->pose_delay_us;
+    step.picture_limit_us = step.start_us - step.epoch.lag_us + frame_rate_period_us(clock->rate) / 4;
+    return step;
+}
+
+static can_step_fault_t fault_of(const frame_clock_t *clock, const frame_step_t *step, const frame_blank_t *blank)
+{
+    const int32_t quarter_us = frame_rate_period_us(clock->rate) / 4;
+    const bool known = step->content >= clock->now.from || (clock->before.any && step->content >= clock->before.from);
+    if (!blank->bus_time_known)
+        return CAN_STEP_NO_TIME;
+    if (!clock->now.any || !clock->proven || (step->held > 0 && !known))
+        return CAN_STEP_NO_CLOCK;
+    return step->off_us < quarter_us && step->off_us > -quarter_us ? CAN_STEP_OK : CAN_STEP_PANEL;
 }
 
 frame_step_t frame_clock_step(frame_clock_t *clock, hal_can_t *can, const frame_blank_t *blank)
 {
+    const can_latency_t own = {
+        .node = clock->node,
+        .lag_us = (uint32_t)blank->lag_us,
+        .display_us = (uint32_t)clock->display_us,
+        .wanted_ms = (uint32_t)blank->wanted_ms,
+    };
+    room_latency_note(&clock->room, &own, blank->now_us);
     clock->proven = is_proven(clock, blank->now_us);
     frame_lead_decide(clock, blank);
     frame_step_t step = find_step(clock, blank);
     if (clock->leading)
         frame_lead(clock, can, &step, blank);
-    const int32_t quarter_us = frame_rate_period_us(clock->rate) / 4;
-    step.in_step = clock->now.any && clock->proven && blank->bus_time_known && step.off_us < quarter_us &&
-                   step.off_us > -quarter_us;
+    step.fault = fault_of(clock, &step, blank);
+    step.in_step = step.fault == CAN_STEP_OK;
     return step;
 }

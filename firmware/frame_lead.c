@@ -2,13 +2,34 @@
 // The board that leads the frame clock: when to, what it announces, and when that changes.
 #include "firmware/frame_lead.h"
 
-enum { OFF_MEMORY = 64, PERIOD_MOST_US = UINT16_MAX /* a phase is sent in 16 bits */ };
+#include "firmware/frame_latency.h"
 
-/* As it is sent. */
-static int32_t lag_from_age(int32_t age_us)
+enum { OFF_MEMORY = 64, PERIOD_MOST_US = 65528 /* a phase is less, and sent in 13 bits */ };
+
+/* As they are sent. */
+static int32_t sent_phase_us(int32_t phase_us)
 {
-    const int32_t lag_us = age_us > FRAME_LEAD_LAG_MOST_US ? FRAME_LEAD_LAG_MOST_US : age_us;
-    return lag_us > 0 ? lag_us & ~7 : 0;
+    return phase_us / CAN_FRAME_CLOCK_PHASE_UNIT_US * CAN_FRAME_CLOCK_PHASE_UNIT_US;
+}
+
+static int32_t sent_lag_us(int32_t lag_us)
+{
+    const int32_t most_us = lag_us > FRAME_LEAD_LAG_MOST_US ? FRAME_LEAD_LAG_MOST_US : lag_us;
+    return most_us / CAN_FRAME_CLOCK_LAG_UNIT_US * CAN_FRAME_CLOCK_LAG_UNIT_US;
+}
+
+/* What the room needs now; lag and target, no more. */
+static frame_epoch_t wanted(const frame_clock_t *clock, int64_t now_us)
+{
+    const room_latency_sum_t sum = room_latency_sum(&clock->room, now_us);
+    frame_epoch_t wanted = {.lag_us = sent_lag_us(sum.lag_us), .target_ms = frame_latency_target_ms(clock, &sum)};
+    const frame_epoch_t *now = &clock->now;
+    const bool listening = now->any && now_us - clock->begun_us < FRAME_CLOCK_LISTEN_US;
+    if (sum.lag_us == 0 || (listening && wanted.lag_us < now->lag_us))
+        wanted.lag_us = now->lag_us;
+    if (listening && wanted.target_ms < now->target_ms)
+        wanted.target_ms = now->target_ms;
+    return wanted;
 }
 
 /* Lead from now on; with the epoch that is known, or the first one. */
@@ -17,19 +38,17 @@ static void begin_to_lead(frame_clock_t *clock, const frame_blank_t *blank)
     frame_clock_follow(clock, clock->node);
     clock->led_since_us = blank->now_us;
     clock->own_us = blank->now_us - FRAME_LEAD_OWN_LATE_US - 1;
-    clock->off_q8 = clock->off_count = clock->lag_wrong = 0;
+    clock->off_q8 = clock->off_count = clock->wrong = 0;
     if (clock->now.any)
         return;
     const int64_t before = frame_rate_before(clock->rate, blank->blank_us);
-    clock->now = (frame_epoch_t){
-        .any = true,
-        .from = before,
-        .phase_us = (int32_t)(blank->blank_us - frame_rate_length_us(clock->rate, before)),
-        .lag_us = lag_from_age(blank->picture_age_us),
-    };
+    clock->now = wanted(clock, blank->now_us);
+    clock->now.any = true;
+    clock->now.from = before;
+    clock->now.phase_us = sent_phase_us((int32_t)(blank->blank_us - frame_rate_length_us(clock->rate, before)));
 }
 
-static void propose(frame_clock_t *clock, const frame_step_t *step, int32_t phase_us, int32_t lag_us)
+static void propose(frame_clock_t *clock, const frame_step_t *step, int32_t phase_us, const frame_epoch_t *wanted)
 {
     const int32_t period_us = frame_rate_period_us(clock->rate);
     frame_epoch_t next = {
@@ -37,13 +56,15 @@ static void propose(frame_clock_t *clock, const frame_step_t *step, int32_t phas
         .number = (uint8_t)((clock->now.number + 1) % CAN_EPOCHS),
         .from = step->number + FRAME_CLOCK_AHEAD_US / period_us + 1,
         .phase_us = phase_us,
-        .lag_us = lag_from_age(lag_us),
+        .lag_us = wanted->lag_us,
+        .target_ms = wanted->target_ms,
     };
     /* What is a whole period off is the neighbour's number. */
     if (next.phase_us < 0)
         next.phase_us += period_us;
     if (next.phase_us >= period_us)
         next.phase_us -= period_us;
+    next.phase_us = sent_phase_us(next.phase_us);
     clock->next = next;
 }
 
@@ -57,20 +78,20 @@ static int32_t house_off_us(const frame_clock_t *clock, const frame_step_t *step
     return (int32_t)(blank->house_us - frame_clock_start_us(clock, nearest));
 }
 
-/* The house's frame, or else the leader's panel, and the leader's camera are what the room goes by. */
+/* The house's frame, or else the leader's panel, and what the boards need are what the room goes by. */
 static void watch(frame_clock_t *clock, const frame_step_t *step, const frame_blank_t *blank)
 {
     const int32_t quarter_us = frame_rate_period_us(clock->rate) / 4;
     if (clock->next.any) {
-        clock->off_q8 = clock->off_count = clock->lag_wrong = 0; /* what is measured now is mended already */
+        clock->off_q8 = clock->off_count = clock->wrong = 0; /* what is measured now is mended already */
         return;
     }
     clock->off_count += clock->off_count < OFF_MEMORY;
     clock->off_q8 += (house_off_us(clock, step, blank) * 256 - clock->off_q8) / clock->off_count;
-    const int32_t wrong_us = blank->picture_age_us - clock->now.lag_us;
-    const bool lag_is_wrong = blank->picture_age_us >= 0 && (wrong_us > quarter_us || wrong_us < -quarter_us) &&
-                              clock->now.lag_us < FRAME_LEAD_LAG_MOST_US;
-    clock->lag_wrong = lag_is_wrong ? clock->lag_wrong + 1 : 0;
+    const frame_epoch_t needed = wanted(clock, blank->now_us);
+    const int32_t wrong_us = needed.lag_us - clock->now.lag_us;
+    const bool is_wrong = wrong_us > quarter_us || wrong_us < -quarter_us || needed.target_ms != clock->now.target_ms;
+    clock->wrong = is_wrong ? clock->wrong + 1 : 0;
     const int32_t off_us = clock->off_q8 / 256;
     const bool drifted =
         clock->off_count == OFF_MEMORY && (off_us > FRAME_CLOCK_DRIFT_US || off_us < -FRAME_CLOCK_DRIFT_US);
@@ -78,10 +99,10 @@ static void watch(frame_clock_t *clock, const frame_step_t *step, const frame_bl
     if (!clock->proven || blank->now_us - clock->proven_us > FRAME_LEAD_OWN_LATE_US ||
         blank->now_us - clock->led_since_us < FRAME_CLOCK_AHEAD_US)
         return;
-    if (clock->lag_wrong >= FRAME_CLOCK_LAG_REFRESHES)
-        propose(clock, step, clock->now.phase_us + off_us, blank->picture_age_us);
+    if (clock->wrong >= FRAME_CLOCK_LAG_REFRESHES)
+        propose(clock, step, clock->now.phase_us + off_us, &needed);
     else if (drifted)
-        propose(clock, step, clock->now.phase_us + off_us, clock->now.lag_us);
+        propose(clock, step, clock->now.phase_us + off_us, &clock->now);
 }
 
 /* @return Is it on its way? What does not get out proves nothing. */
@@ -92,9 +113,10 @@ static bool send(frame_clock_t *clock, hal_can_t *can, const frame_epoch_t *epoc
         .node = clock->node,
         .counter = clock->counter,
         .epoch = epoch->number,
-        .from = (uint16_t)from,
+        .from = (uint16_t)((uint64_t)from % CAN_FRAME_CLOCK_NUMBERS),
         .phase_us = (uint16_t)epoch->phase_us,
         .lag_us = (uint16_t)epoch->lag_us,
+        .target_ms = (uint8_t)epoch->target_ms,
         .sure = clock->proven,
         .to_come = to_come,
         .changes = clock->next.any,

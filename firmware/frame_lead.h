@@ -7,7 +7,7 @@
 
 enum {
     FRAME_LEAD_OWN_LATE_US = 100000, /**< an announcement that gets out so late says nothing of now */
-    FRAME_LEAD_LAG_MOST_US = 65528   /**< as it is sent */
+    FRAME_LEAD_LAG_MOST_US = 65520   /**< as it is sent */
 };
 
 /** Follow a leader from now on, or be it. */

@@ -33,13 +33,15 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
     bus_master_init(&projector->time, (uint8_t)board->node, hal_time_now_us(devices->clock));
     projector->picture_us = hal_time_now_us(devices->clock);
     const frame_choice_settings_t settings = {
-        .refresh = room->refresh,
-        .pose_delay_us = room->pose_delay_us,
+        .clock = {.node = (uint8_t)board->node,
+                  .rate = room->refresh,
+                  .pose_delay_us = room->pose_delay_us,
+                  .display_us = board->display_us},
         .rule = room->rule,
         .width = room->camera.width,
         .height = room->camera.height,
     };
-    if (!frame_choice_init(&projector->choice, &settings, (uint8_t)board->node, projector->picture_us))
+    if (!frame_choice_init(&projector->choice, &settings, projector->picture_us))
         projector->choice.rule.mode = POSE_FOR_FRAME_DELAY; /* room_load() refuses such a room */
     projector->report = (projector_report_t){.state = CAN_BOARD_WAITING};
     stage_times_init(&projector->stage_times);
@@ -78,9 +80,9 @@ void projector_keep_method(projector_t *projector)
 }
 
 /* Keep the camera's newest picture; while it has none, the last good one stays. */
-static void take_newest_picture(projector_t *p, int64_t now_us)
+static void take_newest_picture(projector_t *p, int64_t now_us, int64_t blank_us)
 {
-    const kept_picture_t *newest = p->choice.next.any ? &p->choice.next : &p->choice.now;
+    const kept_picture_t *newest = frame_choice_newest(&p->choice);
     hal_camera_frame_t frame;
     if (!frame_choice_wants_picture(&p->choice))
         return;
@@ -99,7 +101,7 @@ static void take_newest_picture(projector_t *p, int64_t now_us)
         hal_camera_release(p->board.camera, &frame);
         return;
     }
-    frame_choice_keep(&p->choice, &frame, &p->time);
+    frame_choice_keep(&p->choice, &frame, &p->time, blank_us);
     p->picture_us = now_us;
 }
 
@@ -207,8 +209,17 @@ static void note_agreement(projector_t *p)
 {
     can_step_t *agreement = &p->report.agreement;
     *agreement = frame_choice_report(&p->choice);
-    agreement->in_step &= p->report.corrected && p->report.times.shown && !p->report.times.late;
-    p->report.pose_to_photon_us = (int32_t)(frame_choice_shown_us(&p->choice) - (int64_t)agreement->pose_us);
+    const bool in_time = p->report.corrected && p->report.times.shown && !p->report.times.late;
+    p->report.fault = frame_choice_fault(&p->choice);
+    if (p->report.fault == CAN_STEP_OK && !in_time)
+        p->report.fault = CAN_STEP_NOT_SHOWN;
+    agreement->in_step = p->report.fault == CAN_STEP_OK;
+    const int32_t off_us = p->choice.step.off_us,
+                  late_us = p->report.times.late ? frame_rate_period_us(p->choice.clock.rate) : 0;
+    p->report.pose_to_photon_us =
+        (int32_t)(frame_choice_shown_us(&p->choice) - (int64_t)agreement->pose_us) + off_us + late_us;
+    if (p->report.corrected && agreement->pose_us != 0)
+        telemetry_add_photon(&p->telemetry, p->report.pose_to_photon_us);
 }
 
 /* The method of the next picture: the board's own, or one that this board has the time for. */
@@ -269,9 +280,12 @@ void projector_step(projector_t *p)
     bus_receive(&receivers, p->board.can); /* bus -> checked poses, bus time, numbers of refreshes, requests */
     bus_master_step(&p->time, p->board.can, now_us); /* bus time -> bus, when it is this board's turn */
     commands_step(p, now_us);                        /* requests -> what is shown from now on, replies */
-    take_newest_picture(p, now_us);                  /* camera -> newest picture, or the last good one */
+    const int64_t blank_us = newest_blank_us(p);
+    take_newest_picture(p, now_us, blank_us); /* camera -> newest picture, or the last good one */
     p->faults.gpio += !frame_choice_take_edges(&p->choice, p->board.gpio);
-    frame_choice_step(&p->choice, &p->poses, &p->time, p->board.can, p->board.camera, newest_blank_us(p));
+    p->choice.wanted_ms = p->commands.wanted_latency_ms;
+    frame_choice_step(&p->choice, &p->poses, &p->time, p->board.can, p->board.camera, blank_us);
+    take_newest_picture(p, now_us, blank_us); /* when there was no room for it before */
     p->report.state = state_now(p, now_us);
     const int64_t posed_us = end_stage(p, STAGE_POSE, now_us);
     const int64_t deadline_us = hal_display_next_vblank_us(p->board.display);

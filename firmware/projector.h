@@ -46,9 +46,11 @@ typedef struct {
     uint32_t frame_number; /**< pictures presented since start */
     can_pose_t pose;       /**< that it was warped with */
     warp_report_t warp;
-    stage_step_t times;   /**< its stages, and the wait before it */
-    can_step_t agreement; /**< which refresh, picture and pose sample these are, and whether all boards have them */
-    int32_t pose_to_photon_us; /**< from that sample's capture to the middle of the refresh that shows the picture */
+    stage_step_t times;     /**< its stages, and the wait before it */
+    can_step_t agreement;   /**< which content, picture and pose sample these are, and whether all boards have them */
+    can_step_fault_t fault; /**< why that is not certain */
+    int32_t pose_to_photon_us; /**< from that sample's capture to the middle of the refresh that shows the picture, as
+                                    it is seen on the wall; by the panel's own blank */
 } projector_report_t;
 
 /** About 201 MB, one static instance on a board; the simulator makes one for each of its boards before it starts. */

@@ -13,7 +13,14 @@
 #include "warp_fixed/method.h"
 #include "warp_fixed/wall_from_corners.h"
 
-enum { ROOM_MAX_BOARDS = 32, ROOM_MAX_NODE = 63, ROOM_VIEWERS = 4, ROOM_NAME_LENGTH = 32, ROOM_MESSAGE_LENGTH = 512 };
+enum {
+    ROOM_MAX_BOARDS = 32,
+    ROOM_MAX_NODE = 63,
+    ROOM_VIEWERS = 4,
+    ROOM_NAME_LENGTH = 32,
+    ROOM_MESSAGE_LENGTH = 512,
+    ROOM_MOST_DISPLAY_MS = 200
+};
 
 /** One projector and its wall. */
 typedef struct {
@@ -24,6 +31,7 @@ typedef struct {
     const warp_method_t *method;
     uint8_t viewer;          /**< whose poses it follows, 0 to 3; 0 unless stated */
     uint8_t border[3];       /**< R, G, B of unlit pixels */
+    int32_t display_us;      /**< what the projector takes from the board's blank to the wall; 0 unless stated */
     bool step_all;           /**< k over the whole wall instead of over what lands in the picture */
     ls_weights_t ls_weights; /**< of the camera's columns and rows; uniform unless stated */
 } room_board_t;
@@ -35,7 +43,7 @@ typedef struct {
     int32_t bitrate, data_bitrate; /**< bit/s; 500000 and 2000000 unless stated */
     bool fd;                       /**< pose as one CAN FD frame; true unless stated */
     frame_rate_t refresh;          /**< of all panels; 60 Hz unless stated */
-    int32_t pose_delay_us;         /**< see frame_clock_init(); 2 ms unless stated */
+    int32_t pose_delay_us;         /**< see frame_clock_settings_t; 2 ms unless stated */
     pose_for_frame_rule_t rule;    /**< which pose a picture is mapped with; the newest one unless stated */
 } room_t;
 

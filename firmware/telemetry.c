@@ -13,6 +13,7 @@ void telemetry_init(telemetry_t *telemetry, int64_t now_us)
         .status_due_us = now_us,
         .quality_due_us = now_us,
         .time_due_us = now_us,
+        .latency_due_us = now_us,
         .stage_due_us = now_us + STAGES * CAN_STAGE_PERIOD_MS * 1000,
     };
 }
@@ -166,10 +167,40 @@ static void send_step(projector_t *p)
     send(p, can_step_encode(&frame, &step), &frame);
 }
 
+void telemetry_add_photon(telemetry_t *telemetry, int32_t pose_to_photon_us)
+{
+    telemetry->photon_sum_us += pose_to_photon_us;
+    telemetry->photons++;
+}
+
+static void send_latency(projector_t *p)
+{
+    telemetry_t *t = &p->telemetry;
+    const frame_choice_t *choice = &p->choice;
+    const int64_t photon_us = t->photons > 0 ? t->photon_sum_us / t->photons : 0;
+    const can_latency_t latency = {
+        .node = (uint8_t)p->node,
+        .counter = t->latency_counter,
+        .fault = p->report.fault,
+        .held = (uint8_t)choice->step.held,
+        .genlocked = choice->genlocked,
+        .lag_us = (uint32_t)choice->lag.lag_us,
+        .display_us = (uint32_t)choice->clock.display_us,
+        .wanted_ms = (uint32_t)choice->wanted_ms,
+        .photon_us = photon_us > 0 && photon_us < INT32_MAX ? (uint32_t)photon_us : 0,
+        .off_us = choice->step.off_us,
+    };
+    t->latency_counter = (uint8_t)((t->latency_counter + 1) % CAN_E2E_P01_COUNTERS);
+    t->photon_sum_us = 0;
+    t->photons = 0;
+    hal_can_frame_t frame;
+    send(p, can_latency_encode(&frame, &latency), &frame);
+}
+
 void telemetry_send(projector_t *projector, int64_t now_us)
 {
     telemetry_t *t = &projector->telemetry;
-    if (projector->choice.clock.now.any && projector->choice.step.number % CAN_STEP_EVERY == 0)
+    if (projector->choice.clock.now.any && projector->choice.step.content % CAN_STEP_EVERY == 0)
         send_step(projector);
     if (now_us >= t->status_due_us) {
         t->status_due_us = now_us + CAN_STATUS_PERIOD_MS * 1000;
@@ -188,6 +219,10 @@ void telemetry_send(projector_t *projector, int64_t now_us)
     if (now_us >= t->time_due_us) {
         t->time_due_us = now_us + CAN_TIME_PERIOD_MS * 1000;
         send_time(projector, now_us);
+    }
+    if (now_us >= t->latency_due_us) {
+        t->latency_due_us = now_us + CAN_LATENCY_PERIOD_MS * 1000;
+        send_latency(projector);
     }
     if (now_us >= t->heartbeat_due_us) {
         t->heartbeat_due_us = now_us + CAN_HEARTBEAT_PERIOD_MS * 1000;

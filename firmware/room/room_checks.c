@@ -202,10 +202,20 @@ static bool check_method(const room_checker_t *checker, const char *name, room_b
                        "found '%s', expected one of %s", room_phrase_cut(name).text, names);
 }
 
+static bool check_display_delay(const room_checker_t *checker, double ms, room_board_t *board, int32_t b)
+{
+    if (!(ms >= 0 && ms <= ROOM_MOST_DISPLAY_MS))
+        return refuse(checker, room_key("boards[%d].display_delay_ms", b), "found %.12g, expected 0 to %d", ms,
+                      ROOM_MOST_DISPLAY_MS);
+    board->display_us = (int32_t)lround(ms * 1000.0);
+    return true;
+}
+
 static bool check_look(const room_checker_t *checker, const room_yaml_board_t *yaml, room_t *room, int32_t b)
 {
     room_board_t *board = &room->board[b];
     if (!check_method(checker, yaml->method, board, b) ||
+        !check_display_delay(checker, yaml->display_delay_ms, board, b) ||
         !check_whole(checker, room_key("boards[%d].viewer", b), yaml->viewer, 0, ROOM_VIEWERS - 1))
         return false;
     board->viewer = (uint8_t)yaml->viewer;

@@ -50,6 +50,7 @@ static const cyaml_schema_field_t board_keys[] = {
     CYAML_FIELD_STRING_PTR("method", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, room_yaml_board_t, method, 0,
                            CYAML_UNLIMITED),
     CYAML_FIELD_INT("viewer", CYAML_FLAG_OPTIONAL, room_yaml_board_t, viewer),
+    CYAML_FIELD_FLOAT("display_delay_ms", CYAML_FLAG_OPTIONAL, room_yaml_board_t, display_delay_ms),
     CYAML_FIELD_SEQUENCE_FIXED("border", CYAML_FLAG_OPTIONAL, room_yaml_board_t, border, &whole_number, 3),
     CYAML_FIELD_ENUM("step", CYAML_FLAG_OPTIONAL | CYAML_FLAG_STRICT, room_yaml_board_t, step, steps,
                      CYAML_ARRAY_LEN(steps)),

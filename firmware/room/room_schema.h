@@ -39,9 +39,10 @@ typedef struct {
     room_yaml_projector_t projector;
     room_yaml_wall_t wall;
     char *method;
-    int64_t viewer;        /**< 0 unless stated */
-    int64_t border[3];     /**< black unless stated */
-    room_yaml_step_t step; /**< in unless stated */
+    int64_t viewer;          /**< 0 unless stated */
+    double display_delay_ms; /**< 0 unless stated */
+    int64_t border[3];       /**< black unless stated */
+    room_yaml_step_t step;   /**< in unless stated */
     room_yaml_marker_t *marker;
     uint32_t marker_count;
     room_yaml_weights_t *weights;

@@ -9,8 +9,8 @@
 #include "sim/devices/sim_picture.h"
 #include "sim/rng.h"
 
-/* Two held by the firmware, one ready to be taken, one being decoded. */
-enum { BUFFERS = 4, MAX_HELD = 2 };
+/* Those held by the firmware, one ready to be taken, one being decoded. */
+enum { BUFFERS = HAL_CAMERA_LENT + 2 };
 enum { MILLION = 1000000, NO_PICTURE = -1, MAX_CATCH_UP = 100000 };
 
 typedef enum { DROP_CHANCE = 1, CORRUPT_CHANCE = 2, NOISE = 3 } chance_t;
@@ -240,7 +240,7 @@ hal_status_t hal_camera_take(hal_camera_t *camera, hal_camera_frame_t *frame)
     int held = 0;
     for (int i = 0; i < BUFFERS; i++)
         held += camera->buffers[i].state == BUFFER_HELD;
-    if (held >= MAX_HELD)
+    if (held >= HAL_CAMERA_LENT)
         return HAL_FULL;
     buffer_t *ready = find_ready(camera);
     if (ready == NULL)

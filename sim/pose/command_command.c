@@ -86,11 +86,23 @@ static bool say(const session_t *session, int node, const char *what)
     return false;
 }
 
+/* A latency that the room cannot have. */
+static bool say_latency(const session_t *session, const board_talk_t *talk)
+{
+    char text[128];
+    const double least_ms = get_u32(talk->answer) / 1e3, most_ms = get_u32(talk->answer + NUMBER_BYTES) / 1e3;
+    snprintf(text, sizeof text, "cannot: its room's slowest board takes %.1f ms, the fastest can wait until %.1f",
+             least_ms, most_ms);
+    return say(session, talk->node, text);
+}
+
 /* @return Has the board done it? Else that is said. */
 static bool is_done(const session_t *session, const board_talk_t *talk)
 {
     if (!talk->replied)
         return say(session, talk->node, "does not reply; is it on this bus, and running?");
+    if (talk->result == COMMAND_IMPOSSIBLE && talk->request.kind == COMMAND_LATENCY && talk->length >= 2 * NUMBER_BYTES)
+        return say_latency(session, talk);
     if (talk->result != COMMAND_OK)
         return say(session, talk->node, request_refusal(talk->request.kind, talk->result));
     const bool short_hello = talk->request.kind == COMMAND_HELLO && talk->length < HELLO_BYTES;
@@ -138,8 +150,7 @@ static void print_answer(const board_talk_t *talk)
                (const char *)answer + HELLO_BYTES, get_u32(answer + 1));
         break;
     case COMMAND_LATENCY:
-        printf("board %d: latency %" PRIu32 ".%03" PRIu32 " ms wanted\n", talk->node, get_u32(answer) / 1000,
-               get_u32(answer) % 1000);
+        printf("board %d: pose to photon will be %.1f ms\n", talk->node, get_u32(answer) / 1e3);
         break;
     case COMMAND_REBOOT:
         printf("board %d: starts anew when its watchdog ends, in about 2 s\n", talk->node);
@@ -248,8 +259,9 @@ int command_command(int argc, char **argv)
                "  freeze on|off  keep the wall's picture as it is\n"
                "  pattern none|grid|white|black\n"
                "                 show a picture for setting up the projector\n"
-               "  latency MS     want pictures so much later, 0 to 200; boards keep it, but do\n"
-               "                 not hold pictures back for it yet\n"
+               "  latency MS     all boards show pictures so late after their pose, up to 200: as\n"
+               "                 late as the slowest at least; the longest that any board was told\n"
+               "                 counts; 0: each as early as it can\n"
                "  reboot         start anew\n"
                "  log            what has happened, newest last\n\n"
                "It holds until another is given, or the board starts anew. Exit status: 0 every board has done it, 1 "

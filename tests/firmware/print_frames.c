@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "firmware/can_frame_clock.h"
+#include "firmware/can_latency.h"
 #include "firmware/can_protocol.h"
 
 enum { POSE_CYCLE_MS = 4 };
@@ -165,12 +166,19 @@ static void print_times(void)
 static void print_frame_clock(void)
 {
     hal_can_frame_t frame;
-    const can_frame_clock_t clock = {
-        .node = 1, .counter = 6, .epoch = 11, .sure = true, .from = 51234, .phase_us = 16123, .lag_us = 34568};
+    const can_frame_clock_t clock = {.node = 1,
+                                     .counter = 6,
+                                     .epoch = 11,
+                                     .sure = true,
+                                     .from = 3210,
+                                     .phase_us = 16120,
+                                     .lag_us = 34576,
+                                     .target_ms = 87};
     check(can_frame_clock_encode(&frame, &clock));
     print_frame("FrameClock", &frame, CAN_FRAME_CLOCK_PERIOD_MS);
-    printf("signal FrameClockCounter 6\nsignal FrameClockEpoch 11\nsignal FrameClockFrom 51234\n"
-           "signal FrameClockPhase 16123\nsignal FrameClockLag 34568\nsignal FrameClockSure 1\n"
+    printf("signal FrameClockCounter 6\nsignal FrameClockEpoch 11\nsignal FrameClockFrom 3210\nsignal FrameClockTarget "
+           "87\n"
+           "signal FrameClockPhase 16120\nsignal FrameClockLag 34576\nsignal FrameClockSure 1\n"
            "signal FrameClockToCome 0\nsignal FrameClockChanges 0\n");
     const can_step_t step = {.node = 1,
                              .counter = 7,
@@ -182,6 +190,31 @@ static void print_frame_clock(void)
     print_frame("Step", &frame, CAN_STEP_PERIOD_MS);
     printf("signal StepCounter 7\nsignal StepInStep 1\nsignal StepTagged 0\nsignal StepReserved 0\n"
            "signal StepRefresh 12345\nsignal StepPicture 54321\nsignal StepPose 1234500\n");
+}
+
+static void print_latencies(void)
+{
+    static const char *const NAME[] = {"InStep",    "NoBusTime", "NoFrameClock", "PanelOff",
+                                       "NoPicture", "NoPose",    "NotShown"};
+    for (int i = 0; i <= CAN_STEP_NOT_SHOWN; i++) {
+        hal_can_frame_t frame;
+        const can_latency_t latency = {.node = 1,
+                                       .counter = (uint8_t)(2 + i),
+                                       .fault = (can_step_fault_t)i,
+                                       .held = (uint8_t)i,
+                                       .genlocked = i % 2 == 0,
+                                       .lag_us = 16705, /* rounded up */
+                                       .display_us = 33500,
+                                       .wanted_ms = 123,
+                                       .photon_us = 61300, /* rounded */
+                                       .off_us = i % 2 == 0 ? 1290 : -7940};
+        check(can_latency_encode(&frame, &latency));
+        print_frame("Latency", &frame, CAN_LATENCY_PERIOD_MS);
+        printf("signal LatencyCounter %d\nsignal LatencyFault %d\nsignal LatencyHeld %d\nsignal LatencyGenlocked %d\n"
+               "signal LatencyLag 16768\nsignal LatencyDisplay 33.5\nsignal LatencyWanted 123\n"
+               "signal LatencyPhoton 61.25\nsignal LatencyOff %d\nnamed LatencyFault %s\n",
+               2 + i, i, i, i % 2 == 0, i % 2 == 0 ? 1280 : -7936, NAME[i]);
+    }
 }
 
 /* One heartbeat for each fault flag, so that no two flags can be confused. */
@@ -225,6 +258,7 @@ int main(void)
     print_sync();
     print_times();
     print_frame_clock();
+    print_latencies();
     print_heartbeats();
     return 0;
 }

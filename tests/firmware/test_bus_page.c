@@ -12,6 +12,7 @@
 
 #include "firmware/bus_time.h"
 #include "firmware/can_frame_clock.h"
+#include "firmware/can_latency.h"
 #include "firmware/pose_from_can.h"
 #include "sim/bus/candump_text.h"
 
@@ -224,8 +225,9 @@ static void test_loads_are_the_sums(void **state)
     (void)state;
     const double reports = 1000.0 / CAN_STATUS_PERIOD_MS + 1000.0 / CAN_STAGE_PERIOD_MS +
                            1000.0 / CAN_QUALITY_PERIOD_MS + 1000.0 / CAN_TIME_PERIOD_MS +
-                           1000.0 / CAN_HEARTBEAT_PERIOD_MS + 1000.0 / CAN_STEP_PERIOD_MS;
-    assert_true(reports == 28);
+                           1000.0 / CAN_HEARTBEAT_PERIOD_MS + 1000.0 / CAN_STEP_PERIOD_MS +
+                           1000.0 / CAN_LATENCY_PERIOD_MS;
+    assert_true(reports == 29);
     for (double bitrate = 500000, data_bitrate = 2000000; bitrate <= 1000000; bitrate *= 2, data_bitrate = 5000000) {
         const double least_s = 111 / bitrate, most_s = 135 / bitrate;
         assert_load(POSES_PER_S, 3 * least_s, 3 * most_s);

@@ -16,7 +16,8 @@ static ears_t new_ears(void)
     ears_t ears = {.bus = new_bench()};
     const frame_rate_t rate = {60, 1};
     bus_master_init(&ears.time, NODE, ears.bus.time_us);
-    frame_clock_init(&ears.clock, NODE, rate, 2000, ears.bus.time_us);
+    const frame_clock_settings_t settings = {.node = NODE, .rate = rate, .pose_delay_us = 2000};
+    frame_clock_init(&ears.clock, &settings, ears.bus.time_us);
     isotp_init(&ears.commands, 0x603, 0x643);
     return ears;
 }

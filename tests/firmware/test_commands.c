@@ -172,10 +172,20 @@ static void test_methods(void **state)
 static void test_latency(void **state)
 {
     (void)state;
+    /* 2 ms for the pose, a period and a half, and one held back: (42 - 27) ms are nearer to it than to none. */
     ask_command((command_t){.kind = COMMAND_LATENCY, .latency_us = 41500}, COMMAND_OK);
     assert_int_equal(operator.length, 6);
-    assert_int_equal(get_u32(operator.reply + 2), 41500);
-    assert_int_equal(projector()->commands.wanted_latency_us, 41500);
+    assert_int_equal(get_u32(operator.reply + 2), 2000 + 25000 + 16667);
+    assert_int_equal(projector()->commands.wanted_latency_ms, 42);
+    /* The most: three held back, and half a period. */
+    ask_command((command_t){.kind = COMMAND_LATENCY, .latency_us = 86000}, COMMAND_IMPOSSIBLE);
+    assert_int_equal(operator.length, 10);
+    assert_int_equal(get_u32(operator.reply + 2), 27000);
+    assert_int_equal(get_u32(operator.reply + 6), 27000 + 3 * 16667 + 8333);
+    assert_int_equal(projector()->commands.wanted_latency_ms, 42);
+    ask_command((command_t){.kind = COMMAND_LATENCY, .latency_us = 0}, COMMAND_OK);
+    assert_int_equal(get_u32(operator.reply + 2), 27000);
+    assert_int_equal(projector()->commands.wanted_latency_ms, 0);
     assert_int_equal(report()->state, CAN_BOARD_RUNNING);
 }
 

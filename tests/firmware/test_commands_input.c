@@ -10,7 +10,7 @@ static void check_untouched(void)
     const commands_t *c = &projector()->commands;
     assert_false(c->frozen);
     assert_int_equal(c->pattern, COMMAND_PATTERN_NONE);
-    assert_int_equal(c->wanted_latency_us, 0);
+    assert_int_equal(c->wanted_latency_ms, 0);
     assert_false(c->reboot);
     assert_ptr_equal(projector()->ladder.method[0], projector()->room_method);
     ask("\x01", 1, COMMAND_OK);

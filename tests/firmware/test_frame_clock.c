@@ -55,7 +55,8 @@ static room_t *new_room(uint64_t seed, frame_rate_t rate)
     for (int i = 0; i < BOARDS; i++) {
         hal_can_t *board = &room.board[i];
         board->offset_us = between(&room.rng, 0, INT64_C(1) << 40);
-        frame_clock_init(&board->clock, (uint8_t)(i + 1), rate, DELAY_US, room.blank_us + board->offset_us);
+        const frame_clock_settings_t settings = {.node = (uint8_t)(i + 1), .rate = rate, .pose_delay_us = DELAY_US};
+        frame_clock_init(&board->clock, &settings, room.blank_us + board->offset_us);
     }
     return &room;
 }
@@ -88,7 +89,7 @@ static void refresh(room_t *room)
                                      .bus_time_known = true,
                                      .genlocked = room->house_off_us != 0,
                                      .house_us = room->blank_us + room->house_off_us,
-                                     .picture_age_us = room->lag_us + (int32_t)board->bus_error_us};
+                                     .lag_us = room->lag_us + (int32_t)board->bus_error_us};
         board->step = frame_clock_step(&board->clock, board, &blank);
     }
     for (int i = 0; i < BOARDS; i++) {
@@ -180,8 +181,8 @@ static void test_times_of_a_refresh(void **state)
         assert_in_range(length_us, 16666, 16667);
         /* a picture is shown first at the refresh whose limit it just meets */
         const int64_t limit_us = frame_clock_start_us(clock, n) - lag_us + 4166;
-        assert_int_equal(frame_clock_picture_number(clock, limit_us), n);
-        assert_int_equal(frame_clock_picture_number(clock, limit_us + 2), n + 1);
+        assert_int_equal(frame_clock_picture_number(clock, &step->epoch, limit_us), n);
+        assert_int_equal(frame_clock_picture_number(clock, &step->epoch, limit_us + 2), n + 1);
     }
 }
 
@@ -270,10 +271,8 @@ static void test_panel_that_is_off_says_so(void **state)
     room_t *room = new_room(9, rate_60);
     (void)run(room, 120);
     hal_can_t *board = &room->board[3];
-    const frame_blank_t late = {.now_us = room->blank_us + board->offset_us,
-                                .blank_us = room->blank_us + 4400,
-                                .bus_time_known = true,
-                                .picture_age_us = -1};
+    const frame_blank_t late = {
+        .now_us = room->blank_us + board->offset_us, .blank_us = room->blank_us + 4400, .bus_time_known = true};
     assert_false(frame_clock_step(&board->clock, board, &late).in_step);
     frame_blank_t blank = late;
     blank.blank_us = room->blank_us;
@@ -299,14 +298,21 @@ static void test_messages(void **state)
 {
     (void)state;
     hal_can_frame_t frame;
-    const can_frame_clock_t clock = {
-        .node = 63, .counter = 14, .epoch = 15, .from = 0xABCD, .phase_us = 16666, .lag_us = 65528, .changes = true};
+    const can_frame_clock_t clock = {.node = 63,
+                                     .counter = 14,
+                                     .epoch = 15,
+                                     .from = 0xABC,
+                                     .phase_us = 16664,
+                                     .lag_us = 65520,
+                                     .target_ms = 255,
+                                     .changes = true};
     can_frame_clock_t heard;
     assert_true(can_frame_clock_encode(&frame, &clock));
     assert_int_equal(frame.id, 0x17F);
     assert_int_equal(can_frame_clock_decode(&heard, &frame), CAN_CHECK_OK);
-    assert_true(heard.node == 63 && heard.counter == 14 && heard.epoch == 15 && heard.from == 0xABCD);
-    assert_true(heard.phase_us == 16666 && heard.lag_us == 65528 && heard.changes && !heard.to_come && !heard.sure);
+    assert_true(heard.node == 63 && heard.counter == 14 && heard.epoch == 15 && heard.from == 0xABC);
+    assert_true(heard.phase_us == 16664 && heard.lag_us == 65520 && heard.target_ms == 255 && heard.changes &&
+                !heard.to_come && !heard.sure);
     frame.data[3] ^= 4;
     assert_int_equal(can_frame_clock_decode(&heard, &frame), CAN_CHECK_CRC);
     frame.id = 0x140;

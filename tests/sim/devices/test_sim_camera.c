@@ -66,23 +66,24 @@ static void test_lent_pictures_stay(void **state)
 {
     (void)state;
     const camera_rig_t rig = camera_rig_open("pattern");
-    hal_camera_frame_t first, second, third = {.sequence = 77};
-    camera_rig_advance(&rig, camera_rig_time_us(1));
-    assert_int_equal(hal_camera_take(rig.camera, &first), HAL_OK);
-    camera_rig_advance(&rig, camera_rig_time_us(2));
-    assert_int_equal(hal_camera_take(rig.camera, &second), HAL_OK);
-    for (int64_t n = 3; n < 12; n++) {
-        camera_rig_advance(&rig, camera_rig_time_us(n));
-        assert_int_equal(hal_camera_take(rig.camera, &third), HAL_FULL);
-        assert_int_equal(third.sequence, 77);
+    hal_camera_frame_t lent[HAL_CAMERA_LENT], another = {.sequence = 77};
+    for (int n = 0; n < HAL_CAMERA_LENT; n++) {
+        camera_rig_advance(&rig, camera_rig_time_us(n + 1));
+        assert_int_equal(hal_camera_take(rig.camera, &lent[n]), HAL_OK);
     }
-    assert_int_equal(camera_rig_spoilt_rows(&rig, &first, 1), 0);
-    assert_int_equal(camera_rig_spoilt_rows(&rig, &second, 2), 0);
-    hal_camera_release(rig.camera, &first);
-    assert_int_equal(hal_camera_take(rig.camera, &third), HAL_OK);
-    assert_int_equal(third.sequence, 11);
-    assert_int_equal(camera_rig_spoilt_rows(&rig, &third, 11), 0);
-    assert_int_equal(camera_rig_spoilt_rows(&rig, &second, 2), 0);
+    for (int64_t n = HAL_CAMERA_LENT + 1; n < 12; n++) {
+        camera_rig_advance(&rig, camera_rig_time_us(n));
+        assert_int_equal(hal_camera_take(rig.camera, &another), HAL_FULL);
+        assert_int_equal(another.sequence, 77);
+    }
+    for (int n = 0; n < HAL_CAMERA_LENT; n++)
+        assert_int_equal(camera_rig_spoilt_rows(&rig, &lent[n], n + 1), 0);
+    hal_camera_release(rig.camera, &lent[0]);
+    assert_int_equal(hal_camera_take(rig.camera, &another), HAL_OK);
+    assert_int_equal(another.sequence, 11);
+    assert_int_equal(camera_rig_spoilt_rows(&rig, &another, 11), 0);
+    for (int n = 1; n < HAL_CAMERA_LENT; n++)
+        assert_int_equal(camera_rig_spoilt_rows(&rig, &lent[n], n + 1), 0);
     camera_rig_close(&rig);
 }
 
