@@ -43,8 +43,9 @@ typedef struct {
     int32_t bitrate, data_bitrate; /**< bit/s; 500000 and 2000000 unless stated */
     bool fd;                       /**< pose as one CAN FD frame; true unless stated */
     frame_rate_t refresh;          /**< of all panels; 60 Hz unless stated */
-    int32_t pose_delay_us;         /**< see frame_clock_settings_t; 2 ms unless stated */
-    pose_for_frame_rule_t rule;    /**< which pose a picture is mapped with; the newest one unless stated */
+    bool refresh_stated;
+    int32_t pose_delay_us;      /**< see frame_clock_settings_t; 2 ms unless stated */
+    pose_for_frame_rule_t rule; /**< which pose a picture is mapped with; the newest one unless stated */
 } room_t;
 
 /** Hears every warning of room_load(): one line without newline, "FILE:LINE: KEY: what". */

@@ -75,6 +75,7 @@ bool room_frames_check(const room_checker_t *checker, const room_yaml_frames_t *
     if (!check_rate(checker, yaml->refresh_hz, &room->refresh) ||
         !check_thousandths(checker, "frames.pose_delay_ms", yaml->pose_delay_ms, 50.0, &pose_delay_us))
         return false;
+    room->refresh_stated = yaml->refresh_hz != NULL;
     room->pose_delay_us = (int32_t)pose_delay_us;
     return check_rule(checker, yaml, room);
 }

@@ -9,6 +9,7 @@
 
 #include "sim/devices/sim_picture.h"
 #include "sim/options.h"
+#include "sim/run/run_rate.h"
 
 enum {
     KEY_VIDEO = 256,
@@ -40,8 +41,8 @@ static double read_rate(struct argp_state *state, const char *text)
 {
     char *end;
     const double rate = strtod(text, &end);
-    if (end == text || *end != '\0' || !(rate >= 0.001 && rate <= 1000))
-        argp_error(state, "--rate: found \"%s\", expected 0.001 to 1000 Hz", text);
+    if (end == text || *end != '\0' || !(rate >= RUN_RATE_LEAST_HZ && rate <= RUN_RATE_MAX_HZ))
+        argp_error(state, "--rate: found \"%s\", expected %d to %d Hz", text, RUN_RATE_LEAST_HZ, RUN_RATE_MAX_HZ);
     return rate;
 }
 
@@ -66,7 +67,8 @@ static const struct argp_option run_options[] = {
     {"camera", KEY_CAMERA, "FORMAT", 0,
      "What the cameras deliver: xrgb8888 (default), rgb888, bgr888, yuyv, uyvy or nv12", 0},
     {"display", KEY_DISPLAY, "FORMAT", 0, "What the displays take besides xrgb8888, if anything: nv12 or yuyv", 0},
-    {"rate", KEY_RATE, "HZ", 0, "Refresh rate, in place of the room's (default: the list's own up to 60, or 60)", 0},
+    {"rate", KEY_RATE, "HZ", 0,
+     "Refresh rate of every board, in place of the room's (without either: the list's own up to 60, or 60)", 0},
     {"original", KEY_ORIGINAL, "PNG", 0, "A finer original of the picture, to judge by as well", 0},
     {"judge", KEY_JUDGE, "N", 0, "Judge every Nth frame, 0 none (default: 8 frames of the run)", 0},
     {"kernels", KEY_KERNELS, "LEVEL", 0, "Pixel loops: scalar or neon, of the same bytes (default: the fastest)", 0},

@@ -5,22 +5,22 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { US_PER_S = 1000000 };
+enum { US_PER_S = 1000000, MOST_PARTS = 240240 /**< of a frame_rate_t */ };
 
-/* Beat 0 half a period after 0. */
-static sim_rate_t shifted(int32_t frames, int32_t seconds)
+sim_rate_t run_rate_from_frames(frame_rate_t rate)
 {
-    const sim_rate_t half = {0, 2 * frames, seconds};
-    return (sim_rate_t){sim_rate_time_us(&half, 1), frames, seconds};
+    const sim_rate_t half = {0, 2 * rate.frames, rate.seconds};
+    return (sim_rate_t){sim_rate_time_us(&half, 1), rate.frames, rate.seconds};
 }
 
 sim_rate_t run_rate_from_hz(double hz)
 {
-    const double whole = round(hz);
-    if (fabs(hz - whole) < 0.0005 && whole >= 1)
-        return shifted((int32_t)whole, 1);
-    const long millihertz = lround(hz * 1000);
-    return shifted(millihertz < 1 ? 1 : (int32_t)millihertz, 1000);
+    const double tolerance = 0.0005, whole = round(hz), slowed = round(hz * 1.001);
+    if (fabs(hz - whole) < tolerance)
+        return run_rate_from_frames((frame_rate_t){(int32_t)whole, 1});
+    if (fabs(hz - slowed / 1.001) < tolerance)
+        return run_rate_from_frames((frame_rate_t){(int32_t)slowed * 1000, 1001});
+    return run_rate_from_frames((frame_rate_t){(int32_t)lround(hz * 1000), 1000});
 }
 
 static int compare(const void *a, const void *b)
@@ -45,15 +45,37 @@ static int64_t median_interval_us(const pose_list_t *list)
     return median_us;
 }
 
+static int32_t rounded_quotient(int64_t a, int64_t b)
+{
+    return (int32_t)((a + b / 2) / b);
+}
+
+/* Is that its period, but for the rounding of both ends to 1 us? */
+static bool fits(frame_rate_t rate, int64_t period_us)
+{
+    return llabs((int64_t)rate.seconds * US_PER_S - rate.frames * period_us) <= rate.frames;
+}
+
+static frame_rate_t rate_of_period(int64_t period_us)
+{
+    const frame_rate_t whole = {rounded_quotient(US_PER_S, period_us), 1};
+    const frame_rate_t slowed = {rounded_quotient(1001 * US_PER_S, 1000 * period_us) * 1000, 1001};
+    if (fits(whole, period_us))
+        return whole;
+    if (fits(slowed, period_us))
+        return slowed;
+    const int32_t seconds = MOST_PARTS / (int32_t)((US_PER_S + period_us - 1) / period_us);
+    return (frame_rate_t){rounded_quotient((int64_t)seconds * US_PER_S, period_us), seconds};
+}
+
 sim_rate_t run_rate_of_poses(const pose_list_t *list)
 {
     const int64_t median_us = median_interval_us(list);
-    if (median_us <= US_PER_S / RUN_RATE_USUAL_HZ || median_us > 1000 * (int64_t)US_PER_S)
-        return shifted(RUN_RATE_USUAL_HZ, 1);
-    const int64_t hz = (US_PER_S + median_us / 2) / median_us;
-    if (hz >= 1 && llabs(US_PER_S - hz * median_us) <= hz)
-        return shifted((int32_t)hz, 1);
-    return shifted(US_PER_S, (int32_t)median_us);
+    if (median_us <= US_PER_S / RUN_RATE_USUAL_HZ)
+        return run_rate_from_frames((frame_rate_t){RUN_RATE_USUAL_HZ, 1});
+    if (median_us >= US_PER_S / RUN_RATE_LEAST_HZ)
+        return run_rate_from_frames((frame_rate_t){RUN_RATE_LEAST_HZ, 1});
+    return run_rate_from_frames(rate_of_period(median_us));
 }
 
 int64_t run_rate_frames(const sim_rate_t *rate, const pose_list_t *list)

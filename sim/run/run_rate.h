@@ -3,20 +3,22 @@
 #ifndef SIM_RUN_RUN_RATE_H
 #define SIM_RUN_RUN_RATE_H
 
+#include "firmware/frame_rate.h"
 #include "sim/devices/sim_rate.h"
 #include "sim/pose/pose_list.h"
 
-enum { RUN_RATE_USUAL_HZ = 60, RUN_RATE_MAX_HZ = 1000 };
+enum { RUN_RATE_LEAST_HZ = 1, RUN_RATE_USUAL_HZ = 60, RUN_RATE_MAX_HZ = 240 };
 
-/**
- * @param hz  Above 0, up to RUN_RATE_MAX_HZ; taken to 1/1000 Hz, at least that.
- * @return The rate, with beat 0 half a period after 0.
+/** @return The rate, with beat 0 half a period after 0: so is it of all that follow, whose rates are frame_rate_t too.
  */
+sim_rate_t run_rate_from_frames(frame_rate_t rate);
+
+/** @param hz  RUN_RATE_LEAST_HZ to RUN_RATE_MAX_HZ; like 59.94 it is 60000 / 1001, else taken to 1/1000 Hz. */
 sim_rate_t run_rate_from_hz(double hz);
 
 /**
- * @return The list's median rate, up to RUN_RATE_USUAL_HZ, which it also is when the list has no rate (a single pose);
- *         beat 0 is half a period after 0. A whole number of Hz when the times, rounded to 1 us, allow it.
+ * @return The list's median rate, RUN_RATE_LEAST_HZ to RUN_RATE_USUAL_HZ, which it also is when the list has no rate (a
+ *         single pose). Whole Hz, or like 59.94, when the times, rounded to 1 us, allow it.
  */
 sim_rate_t run_rate_of_poses(const pose_list_t *list);
 

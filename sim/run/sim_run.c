@@ -75,14 +75,20 @@ static bool open_inputs(run_t *run)
     return run->video != NULL && open_original(run);
 }
 
+static sim_rate_t choose_refresh(const run_t *run)
+{
+    if (run->options->rate_hz > 0)
+        return run_rate_from_hz(run->options->rate_hz);
+    return is_real(run) || run->room.refresh_stated ? run_rate_from_frames(run->room.refresh)
+                                                    : run_rate_of_poses(&run->poses);
+}
+
 static bool plan(run_t *run)
 {
     const sim_run_options_t *options = run->options;
     run_loop_t *loop = &run->loop;
-    loop->refresh = options->rate_hz > 0 ? run_rate_from_hz(options->rate_hz)
-                    : is_real(run)       ? run_rate_from_hz(RUN_RATE_USUAL_HZ)
-                                         : run_rate_of_poses(&run->poses);
-    run->room.refresh = (frame_rate_t){loop->refresh.frames, loop->refresh.seconds}; /* of the simulated panels */
+    loop->refresh = choose_refresh(run);
+    run->room.refresh = (frame_rate_t){loop->refresh.frames, loop->refresh.seconds}; /* the boards number by it */
     loop->start_us = is_real(run) ? sim_clock_monotonic_us() : 0;
     loop->frames = options->frames > 0 ? options->frames
                    : is_real(run)      ? INT64_MAX

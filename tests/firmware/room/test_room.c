@@ -110,7 +110,7 @@ static void test_optional_keys_have_their_defaults(void **state)
     assert_int_equal(room.bitrate, 500000);
     assert_int_equal(room.data_bitrate, 2000000);
     assert_true(room.fd);
-    assert_true(room.refresh.frames == 60 && room.refresh.seconds == 1);
+    assert_true(room.refresh.frames == 60 && room.refresh.seconds == 1 && !room.refresh_stated);
     assert_int_equal(room.pose_delay_us, 2000);
     assert_true(room.rule.mode == POSE_FOR_FRAME_LATEST && room.rule.content == POSE_FOR_FRAME_WALL);
 }
@@ -130,7 +130,7 @@ static void test_every_key_is_read(void **state)
     assert_int_equal(room.bitrate, 250000);
     assert_int_equal(room.data_bitrate, 1000000);
     assert_false(room.fd);
-    assert_true(room.refresh.frames == 60000 && room.refresh.seconds == 1001);
+    assert_true(room.refresh.frames == 60000 && room.refresh.seconds == 1001 && room.refresh_stated);
     assert_int_equal(room.pose_delay_us, 4500);
     assert_true(room.rule.mode == POSE_FOR_FRAME_DELAY && room.rule.content == POSE_FOR_FRAME_DEPTH);
     assert_int_equal(room.rule.render_us, 33400);

@@ -106,6 +106,20 @@ run_without_path() {
     return 1
 }
 
+# The list has 30 Hz and lasts 0.3 s.
+test_refresh_rate() {
+    { cat "$scratch/classic.yaml" && echo "frames: {refresh_hz: 59.94}"; } >"$scratch/video.yaml"
+    run "$scratch/video.yaml" --video pattern --poses "$scratch/ten.csv" --out "$scratch/rate" &&
+        grep -q "^18 frames at 59.94 Hz in virtual time" "$scratch/stdout"
+    check "a run has the room's refresh rate" $?
+    run "$scratch/video.yaml" --video pattern --poses "$scratch/ten.csv" --out "$scratch/rate" --rate 50 &&
+        grep -q "^16 frames at 50 Hz in virtual time" "$scratch/stdout"
+    check "--rate is in its place" $?
+    run "$scratch/video.yaml" --video pattern --bus 0 --frames 2 --out "$scratch/rate" &&
+        grep -q "^2 frames at 59.94 Hz in real time" "$scratch/stdout"
+    check "a live run has the room's refresh rate" $?
+}
+
 test_live_run() {
     "$build/wallwarp-sim" run "$scratch/classic.yaml" --video $picture --bus 0 --out "$scratch/live" \
         >"$scratch/live.out" 2>"$scratch/live.err" &
@@ -175,7 +189,10 @@ test_bad_runs() {
     refuses 2 "--frames" "$@" --video pattern --poses "$scratch/ten.csv" --frames 0
     refuses 2 "--frames" "$@" --video pattern --poses "$scratch/ten.csv" --frames 3.5
     refuses 2 "mean+cubic" "$@" --video pattern --poses "$scratch/ten.csv" --method best
-    refuses 2 "--rate" "$@" --video pattern --poses "$scratch/ten.csv" --rate nan
+    for rate in nan 0.999 240.1; do
+        refuses 2 "--rate: found \"$rate\", expected 1 to 240 Hz" "$@" --video pattern --poses "$scratch/ten.csv" \
+            --rate $rate
+    done
     refuses 2 "one room file" "$@" "$scratch/fd.yaml" --video pattern --poses "$scratch/ten.csv"
     refuses 2 "--nonsense" "$@" --nonsense
     refuses 2 "--camera: found \"gray8\"" "$@" --video pattern --poses "$scratch/ten.csv" --camera gray8
@@ -222,6 +239,7 @@ printf 'time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz\n0,0,0,0,0,0,0,0\n' >"$scratch/zero.cs
 test_virtual_runs
 test_repeated_run
 test_options
+test_refresh_rate
 test_live_run
 test_firmware
 test_bad_runs

@@ -160,10 +160,33 @@ static void test_the_rate_follows_the_list(void **state)
     check_rate((const int64_t[]){0, INTERVAL_US, 2 * INTERVAL_US, 100000}, 4, 30, 1, 4);
     check_rate((const int64_t[]){0, 4167, 8333, 12500, 16667}, 5, 60, 1, 2);      /* 240 Hz: every fourth */
     check_rate((const int64_t[]){0, 40000, 80000, 900000, 940000}, 5, 25, 1, 24); /* a gap is no rate */
-    check_rate((const int64_t[]){0, 41708, 83416}, 3, 1000000, 41708, 3);         /* 23.976 Hz */
-    assert_int_equal(run_rate_from_hz(59.94).frames, 59940);
-    assert_int_equal(run_rate_from_hz(50).frames, 50);
-    assert_int_equal(run_rate_from_hz(50).start_us, 10000);
+    check_rate((const int64_t[]){0, 41708, 83416}, 3, 24000, 1001, 3);            /* 23.976 Hz */
+    check_rate((const int64_t[]){0, 5000000, 10000000}, 3, 1, 1, 11);             /* never slower than 1 Hz */
+}
+
+/* What boards can number by: 1 to 240 Hz, both parts up to 240240. */
+static void test_every_list_has_a_rate_for_boards(void **state)
+{
+    (void)state;
+    for (int64_t us = 1; us < 2000000; us += 1 + us / 97) {
+        pose_list_entry_t entry[2] = {{.time_us = 0}, {.time_us = us}};
+        const sim_rate_t rate = run_rate_of_poses(&(pose_list_t){entry, 2});
+        const double hz = (double)rate.frames / rate.seconds, wanted = fmin(60, fmax(1, 1e6 / (double)us));
+        if (rate.frames < 1 || rate.frames > 240240 || rate.seconds < 1 || rate.seconds > 240240 ||
+            fabs(hz / wanted - 1) > 1 / (double)us + 4e-6)
+            fail_msg("poses each %lld us: %d / %d Hz", (long long)us, rate.frames, rate.seconds);
+    }
+}
+
+static void test_a_rate_in_hz(void **state)
+{
+    (void)state;
+    const sim_rate_t film = run_rate_from_hz(23.976), whole = run_rate_from_hz(50), odd = run_rate_from_hz(72.5);
+    const sim_rate_t most = run_rate_from_hz(240), slowed = run_rate_from_hz(239.76);
+    assert_true(film.frames == 24000 && film.seconds == 1001);
+    assert_true(whole.frames == 50 && whole.seconds == 1 && whole.start_us == 10000);
+    assert_true(odd.frames == 72500 && odd.seconds == 1000);
+    assert_true(most.frames == 240 && slowed.frames == 240000 && slowed.seconds == 1001);
 }
 
 /* The text of frames.csv, read again, is the pose that was used. */
@@ -217,6 +240,8 @@ int main(void)
         cmocka_unit_test(test_a_method_for_all_boards_replaces_the_rooms),
         cmocka_unit_test(test_only_boards_in_virtual_time_may_take_cheaper_methods),
         cmocka_unit_test(test_the_rate_follows_the_list),
+        cmocka_unit_test(test_every_list_has_a_rate_for_boards),
+        cmocka_unit_test(test_a_rate_in_hz),
         cmocka_unit_test(test_a_written_pose_is_read_back),
         cmocka_unit_test(test_sums_over_a_run),
     };
