@@ -77,12 +77,14 @@ bool bridge_run(bridge_run_t *run, char error[POSE_LINK_MESSAGE_LENGTH])
 {
     const int64_t start_us = sim_clock_monotonic_us();
     int64_t now_us = start_us, shown_us = start_us;
-    sync_send_t sync = {.due_us = start_us};
+    sync_send_t sync = {.due_us = 0};
     uint64_t next[CAN_VIEWERS];
     /* A bridge started twice is not taken for a repetition. */
     for (int v = 0; v < CAN_VIEWERS; v++)
         next[v] = (uint64_t)start_us;
     run->sent = 0;
+    if (run->sync && !sync_send_begin(&sync, run->link, error))
+        return false;
     while (!*run->stop && (run->duration_us == 0 || now_us - start_us < run->duration_us)) {
         if (!turn(run, &sync, next, error))
             return false;

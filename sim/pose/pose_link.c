@@ -14,6 +14,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "sim/devices/sim_clock.h"
+#include "sim/pose/kernel_stamp.h"
 #include "sim/pose/pose_link_socketcand.h"
 
 enum { CONGESTION_MS = 1000 };
@@ -131,6 +133,53 @@ bool pose_link_send(pose_link_t *link, const hal_can_frame_t *frame, int count, 
     for (int i = 0; i < count; i++)
         if (!send_interface(link, &frame[i], error))
             return false;
+    return true;
+}
+
+bool pose_link_time(pose_link_t *link, uint32_t id, char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    const int on = 1;
+    const struct can_filter own = {.can_id = id, .can_mask = CAN_SFF_MASK | CAN_EFF_FLAG | CAN_RTR_FLAG};
+    if (link->socketcand)
+        return true;
+    if (setsockopt(link->socket, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on) != 0 ||
+        setsockopt(link->socket, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, &on, sizeof on) != 0 ||
+        setsockopt(link->socket, SOL_CAN_RAW, CAN_RAW_FILTER, &own, sizeof own) != 0)
+        return fail_until_up(error, link->name, strerror(errno), "");
+    link->timing = true;
+    return true;
+}
+
+/* The frame as the controller has sent it, with the kernel's stamp; not one like it of another sender, or an older one.
+ * @return -1 when that is not what has come. */
+static int64_t take_own_us(const pose_link_t *link, const hal_can_frame_t *frame)
+{
+    struct can_frame raw;
+    _Alignas(struct cmsghdr) char control[KERNEL_STAMP_BYTES];
+    struct iovec part = {&raw, sizeof raw};
+    struct msghdr message = {
+        .msg_iov = &part, .msg_iovlen = 1, .msg_control = control, .msg_controllen = sizeof control};
+    if (recvmsg(link->socket, &message, MSG_DONTWAIT) != (ssize_t)sizeof raw ||
+        (message.msg_flags & MSG_CONFIRM) == 0 || raw.can_dlc != frame->length ||
+        memcmp(raw.data, frame->data, frame->length) != 0)
+        return -1;
+    return kernel_stamp_us(&message);
+}
+
+bool pose_link_send_timed(pose_link_t *link, const hal_can_frame_t *frame, int64_t *time_us,
+                          char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    if (!pose_link_send(link, frame, 1, error))
+        return false;
+    const int64_t sent_us = sim_clock_monotonic_us();
+    int64_t left_ms = POSE_LINK_OUT_MS;
+    *time_us = link->timing ? -1 : sent_us;
+    while (*time_us < 0 && left_ms > 0) {
+        struct pollfd can = {.fd = link->socket, .events = POLLIN};
+        if (poll(&can, 1, (int)left_ms) > 0)
+            *time_us = take_own_us(link, frame);
+        left_ms = POSE_LINK_OUT_MS - (sim_clock_monotonic_us() - sent_us) / 1000;
+    }
     return true;
 }
 

@@ -8,12 +8,17 @@
 
 #include "hal/hal_can.h"
 
-enum { POSE_LINK_MESSAGE_LENGTH = 256, POSE_LINK_INPUT_BYTES = 8192 };
+enum {
+    POSE_LINK_MESSAGE_LENGTH = 256,
+    POSE_LINK_INPUT_BYTES = 8192,
+    POSE_LINK_OUT_MS = 20 /**< a timed frame that has not won the bus by then has no time */
+};
 
 typedef struct {
     int socket;      /**< an open one */
     bool socketcand; /**< TCP with the socketcand protocol; else SocketCAN */
     bool listening;  /**< pose_link_listen() was called */
+    bool timing;     /**< pose_link_time() was called, on SocketCAN */
     char name[64];   /**< the bus, for messages */
     size_t input_length;
     char input[POSE_LINK_INPUT_BYTES]; /**< socketcand: heard, but not a whole frame yet */
@@ -51,6 +56,24 @@ bool pose_link_open(pose_link_t *link, const char *bus, bool fd, char error[POSE
  * @return false when the link has failed; some of the frames may have been sent.
  */
 bool pose_link_send(pose_link_t *link, const hal_can_frame_t *frame, int count, char error[POSE_LINK_MESSAGE_LENGTH]);
+
+/**
+ * From now on pose_link_send_timed() tells when a frame of this identifier was on the bus. Of no effect with a server,
+ * which does not say. Not for a link that listens.
+ *
+ * @return false when the interface refuses.
+ */
+bool pose_link_time(pose_link_t *link, uint32_t id, char error[POSE_LINK_MESSAGE_LENGTH]);
+
+/**
+ * Send one classic frame and tell when, on sim_clock_monotonic_us().
+ *
+ * @param[out] time_us  After pose_link_time() on an interface: the moment of its last bit on the bus, which is waited
+ *                      for; -1 when that takes more than POSE_LINK_OUT_MS. Else the moment at which the link took it.
+ * @return false when the link has failed.
+ */
+bool pose_link_send_timed(pose_link_t *link, const hal_can_frame_t *frame, int64_t *time_us,
+                          char error[POSE_LINK_MESSAGE_LENGTH]);
 
 /**
  * Hear the bus from now on. Before this call nothing is kept. What the link itself sends is not heard.

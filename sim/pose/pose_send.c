@@ -72,10 +72,13 @@ static void show(size_t sent, const pose_list_t *list, int64_t since_us)
 bool pose_send_list(pose_link_t *link, const pose_send_t *send, size_t *sent, char error[POSE_LINK_MESSAGE_LENGTH])
 {
     const pose_list_t *list = send->list;
+    sync_send_t sync = {.due_us = 0};
+    *sent = 0;
+    if (send->sync && !sync_send_begin(&sync, link, error))
+        return false;
     const int64_t start_us = sim_clock_monotonic_us();
     int64_t shown_us = start_us;
-    sync_send_t sync = {.due_us = start_us};
-    for (*sent = 0; *sent < list->count; ++*sent) {
+    for (; *sent < list->count; ++*sent) {
         const pose_list_entry_t *entry = &list->entry[*sent];
         if (!wait_until_us(start_us + entry->time_us - list->entry[0].time_us, link, send, &sync, error))
             return false;

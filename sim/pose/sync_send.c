@@ -7,22 +7,31 @@
 #include "firmware/bus_master.h"
 #include "sim/devices/sim_clock.h"
 
+bool sync_send_begin(sync_send_t *sync, pose_link_t *link, char error[POSE_LINK_MESSAGE_LENGTH])
+{
+    *sync = (sync_send_t){.due_us = sim_clock_monotonic_us()};
+    return pose_link_time(link, CAN_ID_SYNC, error);
+}
+
 bool sync_send(sync_send_t *sync, pose_link_t *link, char error[POSE_LINK_MESSAGE_LENGTH])
 {
     const int64_t now_us = sim_clock_monotonic_us();
     hal_can_frame_t frame;
+    int64_t time_us;
     if (now_us < sync->due_us)
         return true;
     const can_sync_t first = {.number = BUS_MASTER_TRACKER, .counter = sync->counter, .origin = BUS_MASTER_TRACKER};
     bool encoded = can_sync_encode(&frame, &first);
     assert(encoded);
-    if (!pose_link_send(link, &frame, 1, error))
+    if (!pose_link_send_timed(link, &frame, &time_us, error))
         return false;
-    const can_follow_up_t second = {
-        .number = BUS_MASTER_TRACKER, .counter = sync->counter, .time_us = (uint64_t)sim_clock_monotonic_us()};
-    encoded = can_follow_up_encode(&frame, &second); /* 2^48 us after the machine's start it would not be */
-    assert(encoded);
     sync->due_us = now_us + CAN_SYNC_PERIOD_MS * 1000;
     sync->counter = (uint8_t)((sync->counter + 1) % CAN_E2E_P01_COUNTERS);
+    if (time_us < 0)
+        return true;
+    const can_follow_up_t second = {
+        .number = BUS_MASTER_TRACKER, .counter = first.counter, .time_us = (uint64_t)time_us};
+    encoded = can_follow_up_encode(&frame, &second); /* 2^48 us after the machine's start it would not be */
+    assert(encoded);
     return pose_link_send(link, &frame, 1, error);
 }

@@ -9,12 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
-#include <time.h>
 #include <unistd.h>
 
-#include "sim/devices/sim_clock.h"
+#include "sim/pose/kernel_stamp.h"
 
-enum { MOST_PORT = 65535, LONGEST_ADDRESS = 15, LONGEST_WAIT_US = 1000000 };
+enum { MOST_PORT = 65535, LONGEST_ADDRESS = 15 };
 
 static bool fail(char error[UDP_LISTEN_MESSAGE_LENGTH], const char *address, const char *what, const char *advice)
 {
@@ -95,37 +94,17 @@ int udp_listen_open(const char *address, const char *interface, int *port, char 
     return -1;
 }
 
-static int64_t us_of(struct timespec time)
-{
-    return (int64_t)time.tv_sec * 1000000 + time.tv_nsec / 1000;
-}
-
-/* The kernel's stamp is on CLOCK_REALTIME, which may be set: a wait that cannot be is none. */
-static int64_t waited_us(struct msghdr *message)
-{
-    for (struct cmsghdr *part = CMSG_FIRSTHDR(message); part != NULL; part = CMSG_NXTHDR(message, part)) {
-        if (part->cmsg_level != SOL_SOCKET || part->cmsg_type != SCM_TIMESTAMPNS)
-            continue;
-        struct timespec stamp, now;
-        memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
-        clock_gettime(CLOCK_REALTIME, &now);
-        const int64_t wait_us = us_of(now) - us_of(stamp);
-        return wait_us >= 0 && wait_us <= LONGEST_WAIT_US ? wait_us : 0;
-    }
-    return 0;
-}
-
 ssize_t udp_listen_take(int listener, uint8_t *bytes, size_t place, int64_t *arrived_us)
 {
     union {
         struct cmsghdr aligned;
-        uint8_t bytes[CMSG_SPACE(sizeof(struct timespec))];
+        uint8_t bytes[KERNEL_STAMP_BYTES];
     } control;
     struct iovec data = {.iov_base = bytes, .iov_len = place};
     struct msghdr message = {
         .msg_iov = &data, .msg_iovlen = 1, .msg_control = &control, .msg_controllen = sizeof control};
     const ssize_t size = recvmsg(listener, &message, MSG_DONTWAIT);
     if (size >= 0)
-        *arrived_us = sim_clock_monotonic_us() - waited_us(&message);
+        *arrived_us = kernel_stamp_us(&message);
     return size;
 }
