@@ -13,6 +13,7 @@
 
 enum { LEAST_POSES_PER_S = 20, MOST_LOAD_PPM = 700000, US_PER_S = 1000000 };
 enum { MOST_TIME_ERROR_US = 1000 };
+enum { DELAY_STEP_US = 500, MOST_DELAY_US = 50000 /**< that a room file may have */ };
 enum { HEARTBEAT_GAP_US = 3 * CAN_HEARTBEAT_PERIOD_MS * 1000 / 2 };
 
 /* Where the judgement goes, and how many were bad. */
@@ -56,7 +57,39 @@ static void check_faults(judge_t *judge, int number, const can_faults_t *faults)
     say_count(judge, number, faults->tracking_lost, "times the tracker did not see the viewer");
 }
 
-static void check_viewer(judge_t *judge, int number, const bus_watch_viewer_t *viewer)
+/* Is every pose at the boards when they choose it? Its value is rounded up to half a millisecond. */
+static void check_delay(judge_t *judge, int number, const bus_watch_viewer_t *viewer, int64_t pose_delay_us)
+{
+    const int64_t needed_us = viewer->delay_most_us + (int64_t)(bus_watch_mean_us(&viewer->poses) / 4);
+    const int64_t value_us = (needed_us + DELAY_STEP_US - 1) / DELAY_STEP_US * DELAY_STEP_US;
+    if (pose_delay_us == BUS_CHECK_NO_DELAY)
+        return;
+    if (viewer->delays == 0)
+        say(judge, false, "viewer %d: how late its poses come is not known: it takes a tracker's bus time, and %s",
+            number, "4 to 20 s of it; see --seconds");
+    else if (needed_us > MOST_DELAY_US)
+        say(judge, false, "viewer %d: poses come up to %.1f ms after their capture, which no pose_delay_ms allows for",
+            number, (double)viewer->delay_most_us / 1e3);
+    else if (needed_us > pose_delay_us)
+        say(judge, false,
+            "viewer %d: poses come up to %.1f ms after their capture; set the room's pose_delay_ms to %.1f, not %.1f",
+            number, (double)viewer->delay_most_us / 1e3, (double)value_us / 1e3, (double)pose_delay_us / 1e3);
+}
+
+static void say_good_viewer(judge_t *judge, int number, const bus_watch_viewer_t *viewer)
+{
+    const double rate = US_PER_S / bus_watch_mean_us(&viewer->poses);
+    const double jitter_ms = bus_watch_jitter_us(&viewer->poses) / 1e3;
+    if (viewer->delays == 0)
+        say(judge, true, "viewer %d: %.1f poses a second, jitter %.3f ms, delay within %.3f ms", number, rate,
+            jitter_ms, (double)(viewer->most_us - viewer->least_us) / 1e3);
+    else
+        say(judge, true, "viewer %d: %.1f poses a second, jitter %.3f ms, delay %.1f ms, at most %.1f", number, rate,
+            jitter_ms, (double)viewer->delay_sum_us / (double)viewer->delays / 1e3,
+            (double)viewer->delay_most_us / 1e3);
+}
+
+static void check_viewer(judge_t *judge, int number, const bus_watch_viewer_t *viewer, int64_t pose_delay_us)
 {
     const int before = judge->bad;
     const double mean_us = bus_watch_mean_us(&viewer->poses), rate = mean_us > 0 ? US_PER_S / mean_us : 0;
@@ -71,9 +104,9 @@ static void check_viewer(judge_t *judge, int number, const bus_watch_viewer_t *v
         say(judge, false, "viewer %d: capture times went back %" PRId64 " times; they count up, in us", number,
             viewer->captured_back);
     check_faults(judge, number, &viewer->faults);
+    check_delay(judge, number, viewer, pose_delay_us);
     if (judge->bad == before)
-        say(judge, true, "viewer %d: %.1f poses a second, jitter %.3f ms, delay within %.3f ms", number, rate,
-            bus_watch_jitter_us(&viewer->poses) / 1e3, (double)(viewer->most_us - viewer->least_us) / 1e3);
+        say_good_viewer(judge, number, viewer);
 }
 
 static bool any_captured(const bus_watch_t *watch)
@@ -219,7 +252,7 @@ static int check_boards(judge_t *judge, const bus_watch_t *watch)
     return boards;
 }
 
-int bus_check_print(FILE *file, const bus_watch_t *watch)
+int bus_check_print(FILE *file, const bus_watch_t *watch, int64_t pose_delay_us)
 {
     judge_t judge = {.file = file};
     if (watch->frames == 0) {
@@ -232,7 +265,7 @@ int bus_check_print(FILE *file, const bus_watch_t *watch)
     for (int v = 0; v < CAN_VIEWERS; v++) {
         if (!watch->viewer[v].fd && !watch->viewer[v].set)
             continue;
-        check_viewer(&judge, v, &watch->viewer[v]);
+        check_viewer(&judge, v, &watch->viewer[v], pose_delay_us);
         viewers++;
     }
     const int boards = check_boards(&judge, watch);

@@ -25,15 +25,26 @@ static const char *quality_name(can_pose_quality_t quality)
     return quality == CAN_POSE_PREDICTED ? "predicted" : "tracked";
 }
 
+static void print_delay(FILE *file, const bus_watch_viewer_t *viewer)
+{
+    if (viewer->delays > 0)
+        fprintf(file, " %8.2f %8.2f", (double)viewer->delay_sum_us / (double)viewer->delays / 1e3,
+                (double)viewer->delay_most_us / 1e3);
+    else
+        fprintf(file, " %8s %8s", "-", "-");
+}
+
 static void print_viewer(FILE *file, int number, const bus_watch_viewer_t *viewer)
 {
     const can_faults_t *faults = &viewer->faults;
     const double mean_us = bus_watch_mean_us(&viewer->poses);
-    fprintf(file, "%6d  %-8s %6.1f %9.3f %6" PRIu32 " %6" PRIu32 " %6" PRIu32 " %6" PRIu32 " %9" PRIu32 "  ", number,
+    fprintf(file, "%6d  %-8s %6.1f %9.3f", number,
             viewer->fd && viewer->set ? "fd+set"
             : viewer->fd              ? "fd"
                                       : "set",
-            mean_us > 0 ? us_per_s / mean_us : 0, bus_watch_jitter_us(&viewer->poses) / 1e3, faults->counter_lost,
+            mean_us > 0 ? us_per_s / mean_us : 0, bus_watch_jitter_us(&viewer->poses) / 1e3);
+    print_delay(file, viewer);
+    fprintf(file, " %6" PRIu32 " %6" PRIu32 " %6" PRIu32 " %6" PRIu32 " %9" PRIu32 "  ", faults->counter_lost,
             faults->crc + faults->length, faults->duplicate + faults->stale,
             faults->bad_pose + faults->counter_invalid + faults->incomplete_set, faults->tracking_lost);
     const can_pose_t *pose = &viewer->receiver.newest;
@@ -141,8 +152,10 @@ static void print_agreement(FILE *file, const bus_watch_t *watch)
 void bus_table_print(FILE *file, const char *bus, const bus_watch_t *watch)
 {
     print_bus(file, bus, watch);
-    fprintf(file, "viewer  message  rate/s jitter_ms   lost    crc repeat    bad not_seen  quality         x_mm"
-                  "       y_mm       z_mm\n");
+    fprintf(
+        file,
+        "viewer  message  rate/s jitter_ms delay_ms worst_ms   lost    crc repeat    bad not_seen  quality         x_mm"
+        "       y_mm       z_mm\n");
     for (int v = 0; v < CAN_VIEWERS; v++)
         if (watch->viewer[v].fd || watch->viewer[v].set)
             print_viewer(file, v, &watch->viewer[v]);

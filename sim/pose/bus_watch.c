@@ -85,7 +85,20 @@ static void note_capture(bus_watch_viewer_t *viewer, bool fd)
     viewer->most_us = delay_us > viewer->most_us ? delay_us : viewer->most_us;
 }
 
-static bool take_pose(bus_watch_viewer_t *viewer, const hal_can_frame_t *frame)
+/* As boards, it believes a capture time only when bus time is a tracker's, and when it lies not long before now. */
+static void note_delay(bus_watch_viewer_t *viewer, const bus_master_t *clock, uint64_t wrap_us)
+{
+    const int64_t local_us = viewer->receiver.received_us, now_us = bus_time_from_local(&clock->time, local_us);
+    const int64_t delay_us = now_us - bus_time_extend(now_us, viewer->receiver.newest.capture_time_us, wrap_us);
+    if (clock->origin != BUS_MASTER_TRACKER || !bus_master_knows(clock, local_us) ||
+        delay_us < -POSE_FROM_CAN_AHEAD_US || delay_us > POSE_FROM_CAN_OLDEST_US)
+        return;
+    viewer->delay_most_us = viewer->delays > 0 && viewer->delay_most_us > delay_us ? viewer->delay_most_us : delay_us;
+    viewer->delay_sum_us += delay_us;
+    viewer->delays++;
+}
+
+static bool take_pose(bus_watch_viewer_t *viewer, const bus_master_t *clock, const hal_can_frame_t *frame)
 {
     /* A good pose leaves its time here, and all times of frames are later than this one. */
     viewer->receiver.received_us = INT64_MIN;
@@ -97,6 +110,7 @@ static bool take_pose(bus_watch_viewer_t *viewer, const hal_can_frame_t *frame)
     if (viewer->receiver.received_us != INT64_MIN) {
         note_event(&viewer->poses, frame->time_us);
         note_capture(viewer, fd);
+        note_delay(viewer, clock, fd ? CAN_POSE_FD_WRAP_US : CAN_POSE_SET_WRAP_US);
     }
     return true;
 }
@@ -169,6 +183,7 @@ static void take_follow_up(bus_watch_time_t *time, const can_follow_up_t *follow
 /* @return What the decoders of bus time and of the numbers of refreshes found. */
 static can_check_t take_time(bus_watch_t *watch, const hal_can_frame_t *frame)
 {
+    (void)bus_master_hear(&watch->clock, frame); /* the same check again */
     can_sync_t sync;
     can_check_t check = can_sync_decode(&sync, frame);
     if (check == CAN_CHECK_OK)
@@ -199,13 +214,15 @@ static bool is_command(const hal_can_frame_t *frame)
 
 void bus_watch_take(bus_watch_t *watch, const hal_can_frame_t *frame)
 {
-    if (watch->frames == 0)
+    if (watch->frames == 0) {
         watch->first_us = watch->window_start_us = frame->time_us;
+        bus_master_init(&watch->clock, CAN_MAX_NODE, frame->time_us); /* of any node that is no tracker */
+    }
     watch->frames++;
     watch->last_us = frame->time_us;
     note_load(watch, frame);
     for (int v = 0; v < CAN_VIEWERS; v++)
-        if (take_pose(&watch->viewer[v], frame))
+        if (take_pose(&watch->viewer[v], &watch->clock, frame))
             return;
     can_check_t check = take_report(watch, frame);
     if (check == CAN_CHECK_OTHER)

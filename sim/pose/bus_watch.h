@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "firmware/bus_master.h"
 #include "firmware/can_protocol.h"
 #include "firmware/pose_from_can.h"
 #include "sim/pose/step_watch.h"
@@ -30,6 +31,8 @@ typedef struct {
     int64_t captured_back;     /**< poses captured before the one ahead of them */
     bool captured;             /**< capture times differ: the tracker gives them */
     int64_t least_us, most_us; /**< arrival minus capture; their difference is the delay's jitter */
+    int64_t delays;            /**< poses captured and come at known moments of bus time; while 0, unspecified: */
+    int64_t delay_sum_us, delay_most_us; /**< from capture to arrival */
 } bus_watch_viewer_t;
 
 /** One board's reports. */
@@ -70,6 +73,7 @@ typedef struct {
     int32_t load_ppm, worst_load_ppm; /**< of the last whole window, of the fullest one; -1: none is whole yet */
     bus_watch_viewer_t viewer[CAN_VIEWERS];
     bus_watch_time_t time;
+    bus_master_t clock; /**< the watch's own: bus time over the clock that stamps the frames */
     step_watch_t steps;
     bool has_frame_clock;
     can_frame_clock_t frame_clock;             /**< the newest that holds */

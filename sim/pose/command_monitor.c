@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "firmware/room.h"
 #include "sim/devices/sim_clock.h"
 #include "sim/pose/bus_check.h"
 #include "sim/pose/bus_listen.h"
@@ -12,12 +13,12 @@
 #include "sim/pose/commands.h"
 #include "sim/program.h"
 
-enum { US_PER_S = 1000000, CHECK_US = 5 * US_PER_S, KEY_BITRATE = 256, KEY_DATA_BITRATE };
+enum { US_PER_S = 1000000, CHECK_US = 5 * US_PER_S, KEY_BITRATE = 256, KEY_DATA_BITRATE, KEY_ROOM };
 
 typedef struct {
-    const char *bus;
+    const char *bus, *room;
     int64_t length_us;
-    int32_t bitrate, data_bitrate;
+    int32_t bitrate, data_bitrate; /* 0: not given */
 } options_t;
 
 /* What is watched, and when it was last shown. */
@@ -61,9 +62,27 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     }
 }
 
+static const struct argp_option check_table[] = {
+    {"room", KEY_ROOM, "ROOM", 0, "The room file: is its pose_delay_ms enough for what is measured? And its bit rates",
+     0},
+    {0},
+};
+
+/* What check takes besides. */
+static error_t parse_check(int key, char *argument, struct argp_state *state)
+{
+    options_t *options = state->input;
+    if (key == ARGP_KEY_INIT)
+        state->child_inputs[0] = options;
+    if (key != KEY_ROOM)
+        return ARGP_ERR_UNKNOWN;
+    options->room = argument;
+    return 0;
+}
+
 static options_t read_options(const struct argp *argp, int argc, char **argv)
 {
-    options_t options = {.bitrate = 500000, .data_bitrate = 2000000};
+    options_t options = {.bus = NULL};
     argp_parse(argp, argc, argv, 0, NULL, &options);
     return options;
 }
@@ -99,7 +118,8 @@ static void show(void *context)
 static bool look(view_t *view, const options_t *options, const char *program, bool live)
 {
     char error[POSE_LINK_MESSAGE_LENGTH];
-    bus_watch_init(&view->watch, options->bitrate, options->data_bitrate);
+    bus_watch_init(&view->watch, options->bitrate > 0 ? options->bitrate : 500000,
+                   options->data_bitrate > 0 ? options->data_bitrate : 2000000);
     view->bus = options->bus;
     view->shown_us = sim_clock_monotonic_us();
     const bus_listen_t listen = {
@@ -121,12 +141,14 @@ int command_monitor(int argc, char **argv)
     static const struct argp argp = {
         .options = option_table,
         .parser = parse,
-        .doc = "Show what is on a bus: poses, their rate, jitter and losses, bus time, the boards, the load.\v"
-               "On a terminal the table is renewed in place, else a new one is printed every second. lost, crc, "
-               "repeat, bad and not_seen are a board's own counts of a viewer's poses: lost on the way, damaged, "
-               "repeated or stale, impossible or incomplete, and those in which the tracker does not see the viewer. "
-               "in_step is the share of refreshes at which a board was certain to show what all do; those that two "
-               "boards in step, or more, told of are compared, and differed must stay 0.",
+        .doc =
+            "Show what is on a bus: poses, their rate, jitter and losses, bus time, the boards, the load.\v"
+            "On a terminal the table is renewed in place, else a new one is printed every second. delay_ms is from a "
+            "pose's capture until it comes, in bus time, and worst_ms the longest. lost, crc, "
+            "repeat, bad and not_seen are a board's own counts of a viewer's poses: lost on the way, damaged, "
+            "repeated or stale, impossible or incomplete, and those in which the tracker does not see the viewer. "
+            "in_step is the share of refreshes at which a board was certain to show what all do; those that two "
+            "boards in step, or more, told of are compared, and differed must stay 0.",
     };
     static view_t view;
     const options_t options = read_options(&argp, argc, argv);
@@ -138,24 +160,45 @@ int command_monitor(int argc, char **argv)
     return program_finish(argv[0]);
 }
 
+/* @return false when there is none; said. */
+static bool read_room(options_t *options, int64_t *pose_delay_us, const char *program)
+{
+    static room_t room;
+    char error[ROOM_MESSAGE_LENGTH];
+    if (!room_load(&room, options->room, program_warn, NULL, error)) {
+        fprintf(stderr, "%s: %s\n", program, error);
+        return false;
+    }
+    options->bitrate = options->bitrate > 0 ? options->bitrate : room.bitrate;
+    options->data_bitrate = options->data_bitrate > 0 ? options->data_bitrate : room.data_bitrate;
+    *pose_delay_us = room.pose_delay_us;
+    return true;
+}
+
 int command_check(int argc, char **argv)
 {
+    static const struct argp common = {.options = option_table, .parser = parse};
+    static const struct argp_child children[] = {{.argp = &common}, {0}};
     static const struct argp argp = {
-        .options = option_table,
-        .parser = parse,
+        .options = check_table,
+        .parser = parse_check,
+        .children = children,
         .doc = "Say whether a bus is healthy, and if not, what to look at.\v"
                "Prints a line for each thing looked at, \"ok\" or \"BAD\". The exit status is 0 when all is well, 1 "
                "when something is bad, 2 for bad usage.",
     };
     static view_t view;
+    int64_t pose_delay_us = BUS_CHECK_NO_DELAY;
     options_t options = read_options(&argp, argc, argv);
+    if (options.room != NULL && !read_room(&options, &pose_delay_us, argv[0]))
+        return PROGRAM_FAILED;
     if (options.length_us == 0)
         options.length_us = CHECK_US;
     if (options.length_us < BUS_CHECK_LEAST_US)
         options.length_us = BUS_CHECK_LEAST_US;
     if (!look(&view, &options, argv[0], false))
         return PROGRAM_FAILED;
-    const int bad = bus_check_print(stdout, &view.watch);
+    const int bad = bus_check_print(stdout, &view.watch, pose_delay_us);
     const int status = program_finish(argv[0]);
     return bad > 0 ? PROGRAM_FAILED : status;
 }

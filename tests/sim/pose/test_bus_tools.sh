@@ -52,7 +52,7 @@ test_health() {
     pose_tool monitor --bus "$bus" --seconds 2
     [ $? -eq 0 ] && grep -q '^     0  set  ' "$scratch/stdout" && grep -q '^     2  running ' "$scratch/stdout"
     check "monitor shows the viewer and the boards" $?
-    pose_tool check --bus "$bus" --seconds 2
+    pose_tool check --bus "$bus" --seconds 2 --room "$scratch/classic.yaml"
     grep -q ' viewer 0: ' "$scratch/stdout" && grep -q '^ok   load: ' "$scratch/stdout"
     check "check judges the poses and the load" $?
     kill -INT "$sender"
@@ -73,6 +73,8 @@ test_health() {
 }
 
 test_bad_usage() {
+    refuses 1 "missing.yaml" "$build/wallwarp-pose" check --bus can0 --room "$scratch/missing.yaml"
+    refuses 2 "--room" "$build/wallwarp-pose" monitor --bus can0 --room "$scratch/classic.yaml"
     for command in record monitor check; do
         refuses 2 "--bus is missing" "$build/wallwarp-pose" $command
         refuses 2 "expected a number from" "$build/wallwarp-pose" $command --bus can0 --seconds x

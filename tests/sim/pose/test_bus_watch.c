@@ -113,7 +113,7 @@ static char *judged(const scene_t *scene, int expected_bad)
     char *text = NULL;
     size_t length = 0;
     FILE *file = open_memstream(&text, &length);
-    const int bad = bus_check_print(file, &scene->watch);
+    const int bad = bus_check_print(file, &scene->watch, BUS_CHECK_NO_DELAY);
     assert_int_equal(fclose(file), 0);
     if (bad != expected_bad)
         fail_msg("%d bad instead of %d:\n%s", bad, expected_bad, text);
