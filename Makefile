@@ -259,6 +259,17 @@ fuzz: setup-test ## Search for inputs that break the readers and the warp, SECON
 run-fuzz: $(FUZZERS)
 	$(Q)tests/fuzz/run.sh $(BUILD) $(SECONDS)
 
+# What a board needs is printed from its own tables by a program of this machine, whatever the board is built with.
+BOARD   := host
+HOST_CC := gcc
+INFO     = build/info/$(BOARD)
+.PHONY: info
+info: $(INFO) ## Print what a board is made of, its wiring and its set-up: make BOARD=rpi4 info
+	$(Q)$(INFO)
+build/info/%: board/%/board.c board/%/info.c board/print_info.c board/board_info.c board/board_info.h hal/hal_board.h
+	$(Q)mkdir -p $(@D)
+	$(Q)$(HOST_CC) -I. -std=c11 -Wall -Wextra -Werror -o $@ $(filter %.c,$^)
+
 .PHONY: freestanding
 freestanding: setup-test ## Compile warp_fixed for aarch64 without any library, and look for float and foreign symbols
 	$(Q)tests/warp_fixed/test_freestanding.sh $(BUILD)

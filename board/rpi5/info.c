@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The board "rpi5": wiring and set-up. The reasons are in README.md.
+#include "board/board_info.h"
+
+const board_info_t board_info = {
+    .machine = "Raspberry Pi 5 with 64-bit Raspberry Pi OS Lite, and a CAN FD hat with one MCP2518FD",
+    .header = "pin of the 40-pin header",
+    .line_prefix = "GPIO",
+    .wire =
+        {
+            {1, BOARD_WIRE_FIXED, "3.3 V", "hat: supply of the controller"},
+            {2, BOARD_WIRE_FIXED, "5 V", "hat: supply of the isolated transceiver"},
+            {6, BOARD_WIRE_FIXED, "ground", "hat"},
+            {19, BOARD_WIRE_FIXED, "GPIO10, SPI0 MOSI", "hat: SDI"},
+            {21, BOARD_WIRE_FIXED, "GPIO9, SPI0 MISO", "hat: SDO"},
+            {23, BOARD_WIRE_FIXED, "GPIO11, SPI0 SCLK", "hat: SCK"},
+            {24, BOARD_WIRE_FIXED, "GPIO8, SPI0 CE0", "hat: nCS"},
+            {22, BOARD_WIRE_FIXED, "GPIO25", "hat: nINT"},
+            {11, HAL_GPIO_LED, NULL, "LED to ground through 1 kOhm"},
+            {13, HAL_GPIO_STROBE, NULL, "oscilloscope"},
+            {15, HAL_GPIO_GENLOCK, NULL, "house sync, 3.3 V, rising edge once per frame"},
+            {16, HAL_GPIO_LAMP, NULL, "lamp enable of the projector, 10 kOhm to ground"},
+            {14, BOARD_WIRE_FIXED, "ground", "of these four"},
+        },
+    .step =
+        {
+            {"/boot/firmware/config.txt", "dtparam=spi=on\n"
+                                          "dtoverlay=mcp251xfd,spi0-0,interrupt=25,oscillator=40000000\n"
+                                          "dtoverlay=vc4-kms-v3d\n"
+                                          "dtoverlay=tc358743,4lane\n"
+                                          "camera_auto_detect=0\n"},
+            {"/boot/firmware/cmdline.txt, at the end of its one line",
+             "isolcpus=domain,managed_irq,1-3 rcu_nocbs=1-3 irqaffinity=0 consoleblank=0\n"},
+            {"a shell, once", "sudo apt install can-utils v4l-utils gpiod\n"},
+        },
+};
