@@ -144,6 +144,9 @@ typedef enum {
     CAN_BOARD_STATES
 } can_board_state_t;
 
+/** @return In one word: "running"; "unknown" when out of range. */
+const char *can_board_state_name(can_board_state_t state);
+
 /** Faults of the board: the camera's as it is at the moment of sending, the others since the last heartbeat. Bits are
  *  never reused for something else. */
 typedef enum {

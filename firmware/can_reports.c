@@ -203,3 +203,26 @@ can_check_t can_time_decode(can_time_t *time, const hal_can_frame_t *frame)
     };
     return CAN_CHECK_OK;
 }
+
+const char *can_board_state_name(can_board_state_t state)
+{
+    switch (state) {
+    case CAN_BOARD_WAITING:
+        return "waiting";
+    case CAN_BOARD_RUNNING:
+        return "running";
+    case CAN_BOARD_HOLDING:
+        return "holding";
+    case CAN_BOARD_SAFE:
+        return "safe";
+    case CAN_BOARD_FAULT:
+        return "fault";
+    case CAN_BOARD_FROZEN:
+        return "frozen";
+    case CAN_BOARD_PATTERN:
+        return "pattern";
+    case CAN_BOARD_STATES:
+        break;
+    }
+    return "unknown";
+}

@@ -9,11 +9,22 @@
 #include "firmware/room.h"
 #include "hal/hal_board.h"
 
-enum { FAILED = 1, BAD_USAGE = 2, KEY_CAN = 256, KEY_CAMERA, KEY_DISPLAY, KEY_KERNELS, KEY_WORKERS };
+enum {
+    FAILED = 1,
+    BAD_USAGE = 2,
+    KEY_CAN = 256,
+    KEY_CAMERA,
+    KEY_DISPLAY,
+    KEY_KERNELS,
+    KEY_WORKERS,
+    KEY_CHECK,
+    KEY_OFF
+};
 
 typedef struct {
-    const char *room;
-    int32_t node; /**< 0: not given */
+    enum { RUN, CHECK, OFF } task;
+    const char *room; /**< NULL: not given */
+    int32_t node;     /**< 0: not given */
     board_table_t devices;
     const warp_kernels_t *kernels;
 } options_t;
@@ -25,6 +36,8 @@ static const struct argp_option option_table[] = {
     {"display", KEY_DISPLAY, "NAME", 0, "Display, in place of the board's own", 0},
     {"kernels", KEY_KERNELS, "LEVEL", 0, "Pixel loops: scalar or neon, of the same bytes (default: the fastest)", 0},
     {"workers", KEY_WORKERS, "N", 0, "Threads that make a picture together, 1 to 4, in place of the board's own", 0},
+    {"check", KEY_CHECK, NULL, 0, "Say what of the board is there and what is missing, change nothing, and end", 1},
+    {"off", KEY_OFF, NULL, 0, "Drive the board's outputs low, the lamp's too, and end", 1},
     {0},
 };
 
@@ -70,13 +83,20 @@ static error_t read_option(int key, char *text, struct argp_state *state)
         if (options->kernels == NULL)
             argp_error(state, "--kernels: found \"%s\", expected scalar or neon", text);
         return 0;
+    case KEY_CHECK:
+        options->task = CHECK;
+        return 0;
+    case KEY_OFF:
+        options->task = OFF;
+        return 0;
     case ARGP_KEY_ARG:
         if (state->arg_num > 0)
             argp_error(state, "found \"%s\", expected one room file", text);
         options->room = text;
         return 0;
     case ARGP_KEY_END:
-        if (options->room == NULL || options->node == 0)
+        if (options->task == RUN ? options->room == NULL || options->node == 0
+                                 : (options->room == NULL) != (options->node == 0))
             argp_error(state, "expected ROOM and --node N");
         return 0;
     default:
@@ -90,9 +110,9 @@ static void print_warning(void *context, const char *line)
     fprintf(stderr, "warning: %s\n", line);
 }
 
-static bool open_board(hal_board_t *devices, const options_t *options, const room_t *room, const room_board_t *board)
+static hal_board_needs_t needs_of(const room_t *room, const room_board_t *board)
 {
-    const hal_board_needs_t needs = {
+    return (hal_board_needs_t){
         .picture_width = room->camera.width,
         .picture_height = room->camera.height,
         .panel_width = board->wall.panel_width,
@@ -103,6 +123,11 @@ static bool open_board(hal_board_t *devices, const options_t *options, const roo
         .data_bitrate = room->data_bitrate,
         .fd = room->fd,
     };
+}
+
+static bool open_board(hal_board_t *devices, const options_t *options, const room_t *room, const room_board_t *board)
+{
+    const hal_board_needs_t needs = needs_of(room, board);
     char error[HAL_BOARD_ERROR_LENGTH];
     fprintf(stderr, "wallwarp: board \"%s\" on %s: can %s, camera %s, display %s\n", board->name, options->devices.name,
             options->devices.can, options->devices.camera, options->devices.display);
@@ -110,6 +135,49 @@ static bool open_board(hal_board_t *devices, const options_t *options, const roo
         return true;
     fprintf(stderr, "wallwarp: %s\n", error);
     return false;
+}
+
+/* The board of the options' node. @return NULL, and the reason in error, when room file or node are wrong. */
+static const room_board_t *load_room(room_t *room, const options_t *options, char error[ROOM_MESSAGE_LENGTH])
+{
+    if (!room_load(room, options->room, print_warning, NULL, error))
+        return NULL;
+    const room_board_t *board = room_board_with_node(room, options->node);
+    if (board == NULL)
+        (void)snprintf(error, ROOM_MESSAGE_LENGTH, "%s: no board has node %d", options->room, options->node);
+    return board;
+}
+
+static void print_check(void *context, hal_check_t what, const char *line)
+{
+    static const char *const names[] = {"found", "advice", "missing"};
+    (void)context;
+    printf("%-8s %s\n", names[what], line);
+}
+
+static int check(const options_t *options, room_t *room)
+{
+    hal_board_needs_t needs;
+    char line[ROOM_MESSAGE_LENGTH + sizeof "room: "], error[ROOM_MESSAGE_LENGTH];
+    const room_board_t *board = options->room == NULL ? NULL : load_room(room, options, error);
+    if (board != NULL) {
+        needs = needs_of(room, board);
+        (void)snprintf(error, sizeof error, "%s, node %d, \"%s\"", options->room, options->node, board->name);
+    }
+    (void)snprintf(line, sizeof line, "room: %s", options->room == NULL ? "none was named" : error);
+    const bool room_good = options->room == NULL || board != NULL;
+    print_check(NULL, room_good ? HAL_CHECK_FOUND : HAL_CHECK_MISSING, line);
+    const bool all = hal_board_check(&options->devices, board == NULL ? NULL : &needs, print_check, NULL);
+    return all && room_good ? 0 : FAILED;
+}
+
+static int switch_off(const options_t *options)
+{
+    char error[HAL_BOARD_ERROR_LENGTH];
+    if (hal_board_outputs_off(&options->devices, error) == HAL_OK)
+        return 0;
+    fprintf(stderr, "wallwarp: %s\n", error);
+    return FAILED;
 }
 
 static void run(const room_t *room, const room_board_t *board, const hal_board_t *devices,
@@ -130,12 +198,12 @@ int main(int argc, char **argv)
     static const struct argp argp = {
         .options = option_table,
         .parser = read_option,
-        .args_doc = "ROOM --node N",
+        .args_doc = "ROOM --node N\n--check [ROOM --node N]\n--off",
         .doc = "The projector's firmware: shows on one wall of ROOM what the tracked viewer must see."
                "\vOn the host the bus is a port of 127.0.0.1 (socketcand protocol, channel can0), the camera a "
                "picture or video file or \"pattern\", the display a folder for PNGs or \"none\"; nv12: or another "
                "format may be before either, for pictures that are not XRGB. Ends on SIGINT or SIGTERM. Exit status: 0 "
-               "done, 1 failed, 2 bad usage.",
+               "done, 1 failed or something is missing, 2 bad usage.",
     };
     static room_t room;
     options_t options = {.devices = board_table, .kernels = warp_kernels_best()};
@@ -144,13 +212,11 @@ int main(int argc, char **argv)
     argp_err_exit_status = BAD_USAGE;
     if (argp_parse(&argp, argc, argv, 0, NULL, &options) != 0)
         return BAD_USAGE;
-    if (!room_load(&room, options.room, print_warning, NULL, error)) {
-        fprintf(stderr, "wallwarp: %s\n", error);
-        return FAILED;
-    }
-    const room_board_t *board = room_board_with_node(&room, options.node);
+    if (options.task != RUN)
+        return options.task == CHECK ? check(&options, &room) : switch_off(&options);
+    const room_board_t *board = load_room(&room, &options, error);
     if (board == NULL) {
-        fprintf(stderr, "wallwarp: %s: no board has node %d\n", options.room, options.node);
+        fprintf(stderr, "wallwarp: %s\n", error);
         return FAILED;
     }
     if (!open_board(&devices, &options, &room, board))

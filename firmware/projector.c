@@ -267,6 +267,15 @@ static bool led_level(can_board_state_t state, int64_t now_us)
     return now_us / half_period_us % 2 == 0;
 }
 
+static void tell_life(projector_t *p, bool alive, int64_t now_us)
+{
+    const bool showing = p->report.frame_number > 0;
+    const hal_service_report_t report = {now_us, can_board_state_name(p->report.state), showing, alive};
+    if (alive && hal_watchdog_feed(p->board.watchdog) != HAL_OK)
+        p->faults.watchdog++;
+    hal_service_report(p->board.service, &report);
+}
+
 static int64_t newest_blank_us(const projector_t *p)
 {
     return hal_display_next_vblank_us(p->board.display) - frame_rate_period_us(p->choice.clock.rate);
@@ -299,6 +308,5 @@ void projector_step(projector_t *p)
     drive(p, HAL_GPIO_LAMP, p->report.frame_number > 0); /* light only what is meant to be seen */
     telemetry_send(p, now_us);                           /* what was shown, and how the board does -> bus */
     event_watch_step(p, now_us);
-    if (healthy && !commands_reboot(&p->commands) && hal_watchdog_feed(p->board.watchdog) != HAL_OK)
-        p->faults.watchdog++;
+    tell_life(p, healthy && !commands_reboot(&p->commands), now_us); /* -> watchdog, service manager */
 }

@@ -114,7 +114,7 @@ void projector_begin_ladder(projector_t *projector);
  *
  * The watchdog is fed when the step got through and a picture was presented or the wall is frozen, or the display said
  * that it is gone: a reset brings no cable back. A display whose buffers never come free is not fed for; nor is it fed
- * when an operator wants a reboot.
+ * when an operator wants a reboot. A service manager hears of life on the same terms.
  */
 void projector_step(projector_t *projector);
 

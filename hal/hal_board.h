@@ -10,6 +10,7 @@
 #include "hal/hal_can.h"
 #include "hal/hal_display.h"
 #include "hal/hal_gpio.h"
+#include "hal/hal_service.h"
 #include "hal/hal_status.h"
 #include "hal/hal_time.h"
 #include "hal/hal_watchdog.h"
@@ -26,6 +27,7 @@ typedef struct {
     hal_time_t *clock;
     hal_watchdog_t *watchdog;
     hal_workers_t *workers; /**< NULL: the loop's thread alone */
+    hal_service_t *service; /**< NULL: nobody is told how the firmware does */
     void *own;              /**< what the HAL keeps behind its devices, or NULL */
 } hal_board_t;
 
@@ -74,5 +76,39 @@ MUST_CHECK hal_status_t hal_board_open(hal_board_t *board, const board_table_t *
 
 /** Close every device, in reverse, and leave the outputs in their safe state. */
 void hal_board_close(hal_board_t *board);
+
+/**
+ * Drive every output low, and do nothing else: for the time after a firmware that did not get to hal_board_close().
+ *
+ * @param[out] error  On failure: one line, as from hal_board_open().
+ * @return HAL_OK, also when the board has no lines; HAL_IO when the chip is missing or a line is held by a program.
+ */
+MUST_CHECK hal_status_t hal_board_outputs_off(const board_table_t *table, char error[HAL_BOARD_ERROR_LENGTH]);
+
+/** What hal_board_check() thinks of a thing that it has looked at. */
+typedef enum {
+    HAL_CHECK_FOUND,  /**< there, and as it is needed */
+    HAL_CHECK_ADVICE, /**< the firmware starts, but would do better after the command */
+    HAL_CHECK_MISSING /**< hal_board_open() would fail */
+} hal_check_t;
+
+/**
+ * Take note of one thing that was looked at.
+ *
+ * @param line  What was found: "can: can0, 500000 bit/s"; where that is not as needed, also what was expected and the
+ *              command that mends it, as in the errors of hal_board_open().
+ */
+typedef void hal_check_print_fn(void *context, hal_check_t what, const char *line);
+
+/**
+ * Look at everything that hal_board_open() would need, without opening anything for itself alone and without changing
+ * anything. A firmware that runs meanwhile does not notice.
+ *
+ * @param needs  What the room file asks for, or NULL to leave that out.
+ * @param print  Called for each thing, in the order of hal_board_t.
+ * @return Nothing was HAL_CHECK_MISSING.
+ */
+MUST_CHECK bool hal_board_check(const board_table_t *table, const hal_board_needs_t *needs, hal_check_print_fn *print,
+                                void *context);
 
 #endif

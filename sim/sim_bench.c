@@ -14,6 +14,7 @@
 #include "sim/devices/sim_clock.h"
 #include "sim/devices/sim_display.h"
 #include "sim/devices/sim_gpio.h"
+#include "sim/devices/sim_service.h"
 #include "sim/devices/sim_watchdog.h"
 #include "sim/files/png_file.h"
 
@@ -94,21 +95,11 @@ static bool open_bus(bench_t *b, const board_table_t *table, const hal_board_nee
     return true;
 }
 
-/* What a name begins with, as nv12:FILE, and the name behind it. */
-static picture_format_t take_format(const char **name)
-{
-    picture_format_t format = PICTURE_XRGB8888;
-    const char *colon = strchr(*name, ':');
-    if (colon != NULL && sim_picture_format_from_name(&format, *name, (size_t)(colon - *name)))
-        *name = colon + 1;
-    return format;
-}
-
 static bool open_camera(bench_t *b, const board_table_t *table, const hal_board_needs_t *needs,
                         char error[HAL_BOARD_ERROR_LENGTH])
 {
     const char *name = table->camera;
-    const picture_format_t format = take_format(&name);
+    const picture_format_t format = sim_picture_take_format(&name);
     b->video = video_open(name, needs->picture_width, needs->picture_height, error);
     if (b->video == NULL)
         return false;
@@ -132,7 +123,7 @@ static bool open_display(bench_t *b, const board_table_t *table, const hal_board
                          char error[HAL_BOARD_ERROR_LENGTH])
 {
     const char *name = table->display;
-    const picture_format_t format = take_format(&name);
+    const picture_format_t format = sim_picture_take_format(&name);
     b->folder = strcmp(name, "none") == 0 ? NULL : name;
     if (b->folder != NULL && mkdir(b->folder, 0777) != 0 && errno != EEXIST)
         return file_error(error, b->folder, "can't make the folder for pictures: %s", strerror(errno));
@@ -169,7 +160,8 @@ hal_status_t hal_board_open(hal_board_t *board, const board_table_t *table, cons
               open_display(b, table, needs, error);
     b->devices.gpio = ok ? sim_gpio_create(b->devices.clock, error) : NULL;
     b->devices.watchdog = b->devices.gpio == NULL ? NULL : sim_watchdog_create(b->devices.clock, WATCHDOG_US, error);
-    ok = b->devices.watchdog != NULL && hal_workers_open(&b->devices.workers, &table->workers, error) == HAL_OK;
+    b->devices.service = b->devices.watchdog == NULL ? NULL : sim_service_create(error);
+    ok = b->devices.service != NULL && hal_workers_open(&b->devices.workers, &table->workers, error) == HAL_OK;
     if (!ok) {
         hal_board_close(&b->devices);
         return HAL_IO;
@@ -183,6 +175,7 @@ void hal_board_close(hal_board_t *board)
 {
     bench_t *b = board->own;
     hal_workers_close(board->workers);
+    sim_service_destroy(board->service);
     sim_watchdog_destroy(board->watchdog);
     sim_gpio_destroy(board->gpio);
     sim_display_destroy(board->display);

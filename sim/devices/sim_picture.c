@@ -146,3 +146,12 @@ void sim_picture_to_xrgb(const image_t *to, const picture_t *from)
             memcpy(image_row(to, y), row, (size_t)to->width * IMAGE_XRGB8888);
     }
 }
+
+picture_format_t sim_picture_take_format(const char **name)
+{
+    picture_format_t format = PICTURE_XRGB8888;
+    const char *colon = strchr(*name, ':');
+    if (colon != NULL && sim_picture_format_from_name(&format, *name, (size_t)(colon - *name)))
+        *name = colon + 1;
+    return format;
+}

@@ -43,4 +43,12 @@ void sim_picture_from_xrgb(const picture_t *to, const image_t *from);
  */
 void sim_picture_to_xrgb(const image_t *to, const picture_t *from);
 
+/**
+ * Take off what a name begins with: nv12:FILE.
+ *
+ * @param[in,out] name  The rest of it: FILE. Left alone when it begins with no format.
+ * @return That format, or XRGB8888.
+ */
+picture_format_t sim_picture_take_format(const char **name);
+
 #endif

@@ -9,7 +9,6 @@
 
 #include "firmware/projector.h"
 #include "sim/pose/event_text.h"
-#include "sim/run/run_record.h"
 
 enum { LEAST_POSES_PER_S = 20, MOST_LOAD_PPM = 700000, US_PER_S = 1000000 };
 enum { MOST_TIME_ERROR_US = 1000 };
@@ -179,7 +178,7 @@ static void check_state(judge_t *judge, int node, can_board_state_t state)
             "board %d: an operator has put a test pattern on; `wallwarp-pose command --node %d pattern none` ends that",
             node, node);
     else if (state != CAN_BOARD_RUNNING)
-        say(judge, false, "board %d: is %s, expected running", node, run_state_name(state));
+        say(judge, false, "board %d: is %s, expected running", node, can_board_state_name(state));
 }
 
 /* By an operator: it does not show what the others do. */

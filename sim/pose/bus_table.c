@@ -4,7 +4,6 @@
 
 #include <inttypes.h>
 
-#include "sim/run/run_record.h"
 #include "warp_fixed/method.h"
 
 static const double us_per_s = 1e6, nm_per_mm = 1e6;
@@ -69,7 +68,7 @@ static void print_board(FILE *file, int node, const bus_watch_board_t *board)
     const can_heartbeat_t *heartbeat = &board->heartbeat;
     fprintf(file, "%6d  ", node);
     if (board->heartbeats.count > 0)
-        fprintf(file, "%-8s %8" PRIu32 " %6" PRIu32 "  0x%03" PRIX32 " ", run_state_name(heartbeat->state),
+        fprintf(file, "%-8s %8" PRIu32 " %6" PRIu32 "  0x%03" PRIX32 " ", can_board_state_name(heartbeat->state),
                 heartbeat->uptime_s, heartbeat->frame_number, heartbeat->fault_flags);
     else
         fprintf(file, "%-8s %8s %6s  %5s ", "-", "-", "-", "-");

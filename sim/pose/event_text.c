@@ -8,7 +8,6 @@
 
 #include "firmware/can_protocol.h"
 #include "sim/pose/request_text.h"
-#include "sim/run/run_record.h"
 
 enum { MS_PER_S = 1000, FLAGS = 16 };
 
@@ -46,7 +45,7 @@ static void value_text(char value[FAULT_NAMES_LENGTH], const event_t *event)
         snprintf(value, FAULT_NAMES_LENGTH, "node %" PRId32, event->value);
         break;
     case EVENT_STATE:
-        snprintf(value, FAULT_NAMES_LENGTH, "%s", run_state_name((can_board_state_t)event->value));
+        snprintf(value, FAULT_NAMES_LENGTH, "%s", can_board_state_name((can_board_state_t)event->value));
         break;
     case EVENT_FAULTS:
         event_fault_names(value, (uint32_t)event->value);

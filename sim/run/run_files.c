@@ -58,7 +58,7 @@ void run_files_add(run_files_t *files, const run_record_t *record, const room_t 
             run_pose_text(pose, &report->pose.pose);
         fprintf(files->frames, "%" PRId32 ",", n);
         print_seconds(files->frames, record->frame[n].time_us);
-        fprintf(files->frames, ",%s,%s,%s,%.4f,%.4f,%" PRId32 "\n", room->board[i].name, run_state_name(report->state),
+        fprintf(files->frames, ",%s,%s,%s,%.4f,%.4f,%" PRId32 "\n", room->board[i].name, can_board_state_name(report->state),
                 pose, report->corrected ? report->warp.k_in_q16 / 65536.0 : 0.0,
                 report->corrected ? report->warp.k_all_q16 / 65536.0 : 0.0,
                 report->corrected ? report->warp.lit_pixels : 0);

@@ -165,26 +165,3 @@ void run_pose_text(char text[RUN_POSE_TEXT_LENGTH], const pose_t *pose)
     snprintf(text, RUN_POSE_TEXT_LENGTH, "%s %s %s %.10f %.10f %.10f %.10f", mm[0], mm[1], mm[2], q[0], q[1], q[2],
              q[3]);
 }
-
-const char *run_state_name(can_board_state_t state)
-{
-    switch (state) {
-    case CAN_BOARD_WAITING:
-        return "waiting";
-    case CAN_BOARD_RUNNING:
-        return "running";
-    case CAN_BOARD_HOLDING:
-        return "holding";
-    case CAN_BOARD_SAFE:
-        return "safe";
-    case CAN_BOARD_FAULT:
-        return "fault";
-    case CAN_BOARD_FROZEN:
-        return "frozen";
-    case CAN_BOARD_PATTERN:
-        return "pattern";
-    case CAN_BOARD_STATES:
-        break;
-    }
-    return "unknown";
-}

@@ -87,7 +87,4 @@ enum { RUN_POSE_TEXT_LENGTH = 160 };
 /** Write a pose so that pose_from_text() reads it back: "x_mm y_mm z_mm qw qx qy qz". */
 void run_pose_text(char text[RUN_POSE_TEXT_LENGTH], const pose_t *pose);
 
-/** @return "waiting", "running", "holding", "safe" or "fault". */
-const char *run_state_name(can_board_state_t state);
-
 #endif

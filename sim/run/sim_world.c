@@ -8,6 +8,7 @@
 #include "sim/devices/sim_clock.h"
 #include "sim/devices/sim_display.h"
 #include "sim/devices/sim_gpio.h"
+#include "sim/devices/sim_service.h"
 #include "sim/devices/sim_watchdog.h"
 #include "sim/rng.h"
 
@@ -81,7 +82,8 @@ static bool open_devices(sim_world_t *world, int32_t index, char error[FILE_ERRO
     devices->gpio = devices->display == NULL ? NULL : sim_gpio_create(devices->clock, error);
     devices->watchdog =
         devices->gpio == NULL ? NULL : sim_watchdog_create(devices->clock, SIM_WORLD_WATCHDOG_US, error);
-    return devices->watchdog != NULL;
+    devices->service = devices->watchdog == NULL ? NULL : sim_service_create(error);
+    return devices->service != NULL;
 }
 
 static bool open_node(sim_world_t *world, int32_t index, char error[FILE_ERROR_LENGTH])
@@ -138,6 +140,7 @@ void sim_world_destroy(sim_world_t *world)
     for (int32_t i = world->config.room->board_count - 1; i >= 0; i--) {
         node_t *node = &world->node[i];
         free(node->projector);
+        sim_service_destroy(node->devices.service);
         sim_watchdog_destroy(node->devices.watchdog);
         sim_gpio_destroy(node->devices.gpio);
         sim_display_destroy(node->devices.display);

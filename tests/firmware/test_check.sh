@@ -1,0 +1,46 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# `wallwarp --check` and `--off` on the simulator's devices: what is said of each, exit status, nothing left behind.
+# usage: test_check.sh BUILD, from the tree's root
+set -u
+wallwarp=$1/wallwarp
+room=sim/demo/room.yaml
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failed=0
+
+# expect STATUS TEXT ARGUMENTS...: the program ends with the status, and prints a line that begins with the text
+expect() {
+    status=$1
+    text=$2
+    shift 2
+    "$wallwarp" "$@" >"$folder/out" 2>&1
+    found=$?
+    if [ "$found" != "$status" ] || ! awk -v text="$text" 'index($0, text) == 1 {n++} END {exit n == 0}' "$folder/out"; then
+        echo "FAILED: wallwarp $*: status $found, expected $status and a line that begins with: $text"
+        sed 's/^/    /' "$folder/out"
+        failed=$((failed + 1))
+    fi
+}
+
+expect 0 'found    room: none was named' --check
+expect 0 'found    can: port 29536 of 127.0.0.1' --check
+expect 0 "found    room: $room, node 1, \"front\"" --check $room --node 1
+expect 0 'found    camera: pattern, 960x540' --check $room --node 1
+expect 0 'found    camera: sim/demo/studio_960x540.png' --check --camera nv12:sim/demo/studio_960x540.png
+expect 1 'missing  room: nowhere.yaml' --check nowhere.yaml --node 1
+expect 1 "missing  room: $room: no board has node 7" --check $room --node 7
+expect 1 'missing  can: found "can0", expected a port' --check --can can0
+expect 1 'missing  camera: nowhere.png' --check --camera nowhere.png
+expect 1 'missing  camera: tests/images/studio_480x270.png' --check $room --node 1 --camera tests/images/studio_480x270.png
+expect 1 'missing  display: Makefile is no folder' --check --display Makefile
+expect 0 "found    display: $folder/new" --check --display "$folder/new"
+[ -e "$folder/new" ] && echo "FAILED: --check made a folder" && failed=$((failed + 1))
+expect 2 'wallwarp: expected ROOM and --node N' --check $room
+expect 2 'wallwarp: expected ROOM and --node N' --check --node 1
+expect 2 'wallwarp: expected ROOM and --node N'
+"$wallwarp" --off >"$folder/out" 2>&1 || { echo "FAILED: --off"; failed=$((failed + 1)); }
+[ -s "$folder/out" ] && echo "FAILED: --off said something" && failed=$((failed + 1))
+
+[ $failed = 0 ] && echo "test_check: all passed"
+exit $((failed > 0))
