@@ -26,6 +26,10 @@ MAINS    := firmware/main.c sim/wallwarp_sim.c sim/wallwarp_eval.c sim/wallwarp_
 
 WARP_C     := $(wildcard warp_fixed/*.c)
 HAL_C      := $(addprefix hal/linux/,workers_pthread.c key_file.c)
+# Devices of Linux boards; this machine's own programs have the simulator's.
+LINUX_C    := $(addprefix hal/linux/,board_error.c can_socketcan.c gpio_gpiod.c realtime_linux.c socketcan_frame.c \
+              socketcan_link.c socketcan_netlink.c socketcan_socket.c socketcan_stamp.c time_linux.c watchdog_linux.c \
+              gpio_gpiod_v$(firstword $(subst ., ,$(shell pkg-config --modversion libgpiod))).c)
 FIRMWARE_C := $(filter-out $(MAINS),$(wildcard firmware/*.c firmware/*/*.c))
 SIM_C      := $(filter-out $(MAINS),$(wildcard sim/*.c sim/*/*.c))
 TESTS_C    := $(wildcard tests/*/test_*.c tests/*/*/test_*.c)
@@ -83,6 +87,7 @@ $(BUILD)/lib$(1).a: $(call objects,$(2))
 endef
 $(eval $(call archive,warp,$(WARP_C)))
 $(eval $(call archive,hal,$(HAL_C)))
+$(eval $(call archive,linux,$(LINUX_C)))
 $(eval $(call archive,firmware,$(FIRMWARE_C)))
 $(eval $(call archive,sim,$(SIM_C) $(wildcard sim/*/*.S)))
 $(eval $(call archive,support,$(SUPPORT_C)))
@@ -108,6 +113,13 @@ $(BUILD)/tests/sim/pose/send_pose: sim/pose/examples/send_pose.c
 	@mkdir -p $(@D)
 	$(Q)$(CC) -std=c11 $(OPT) -Wall -Wextra -Werror -Wpedantic -o $@ $< -lm
 $(BUILD)/tests/sim/pose/test_send_pose: $(BUILD)/tests/sim/pose/send_pose
+
+# Tests of a Linux board's devices are linked with these in place of the simulator's.
+LINUX_TESTS := $(addprefix $(BUILD)/tests/hal/linux/test_,socketcan_frame socketcan_stamp socketcan_link can_socketcan \
+               gpio_gpiod watchdog_linux time_linux realtime_linux)
+$(LINUX_TESTS): $(BUILD)/liblinux.a
+$(LINUX_TESTS): LIBS := $(BUILD)/liblinux.a
+$(LINUX_TESTS): LDLIBS += -lmnl -lgpiod
 
 $(BUILD)/tests/firmware/test_frame_tag_jpeg: LDLIBS += -ljpeg
 $(addprefix $(BUILD)/tests/,firmware/test_can_auth firmware/test_can_auth_time firmware/test_can_auth_no_heap \
@@ -171,11 +183,13 @@ test: setup-test ## Run every test; the last line says how many passed and faile
 run-tests: programs $(TESTS) $(HELPERS)
 	$(Q)tests/run.sh build/test-logs $(RUN_TESTS)
 
+# Sanitizers have a heap of their own, and lock no memory.
+NOT_SANITIZED := %_no_heap.c %/test_realtime_linux.c
 .PHONY: sanitize
 sanitize: setup-test ## Run the unit tests again with the address and undefined-behaviour sanitizers
 	$(Q)$(MAKE) --no-print-directory BUILD=build/sanitize OPT='-O1 -fsanitize=address,undefined \
 	    -fno-sanitize-recover=all -fno-omit-frame-pointer' \
-	    TESTS_C='$(filter-out %_no_heap.c,$(TESTS_C))' run-unit-tests
+	    TESTS_C='$(filter-out $(NOT_SANITIZED),$(TESTS_C))' run-unit-tests
 .PHONY: run-unit-tests
 run-unit-tests: $(TESTS) $(CHECK_KERNELS)
 	$(Q)tests/run.sh $(BUILD)/test-logs $(foreach t,$(TESTS) $(CHECK_KERNELS),'$(t)')
