@@ -121,6 +121,13 @@ $(LINUX_TESTS): $(BUILD)/liblinux.a
 $(LINUX_TESTS): LIBS := $(BUILD)/liblinux.a
 $(LINUX_TESTS): LDLIBS += -lmnl -lgpiod
 
+# The display of Linux, which no library of the host holds.
+DISPLAY_KMS := $(call objects,$(wildcard hal/linux/display_kms*.c) hal/linux/device_user.c)
+KMS_TESTS   := $(wildcard tests/hal/linux/test_display_kms*.c)
+$(DISPLAY_KMS) $(call objects,$(KMS_TESTS)): CPPFLAGS += -isystem /usr/include/libdrm
+$(KMS_TESTS:tests/%.c=$(BUILD)/tests/%): $(DISPLAY_KMS)
+$(KMS_TESTS:tests/%.c=$(BUILD)/tests/%): LDLIBS += -ldrm
+
 $(BUILD)/tests/firmware/test_frame_tag_jpeg: LDLIBS += -ljpeg
 $(addprefix $(BUILD)/tests/,firmware/test_can_auth firmware/test_can_auth_time firmware/test_can_auth_no_heap \
     fuzz/fuzz_can_auth): LDLIBS += -lmbedcrypto
