@@ -122,11 +122,15 @@ $(LINUX_TESTS): LIBS := $(BUILD)/liblinux.a
 $(LINUX_TESTS): LDLIBS += -lmnl -lgpiod
 
 # The display of Linux, which no library of the host holds.
-DISPLAY_KMS := $(call objects,$(wildcard hal/linux/display_kms*.c) hal/linux/device_user.c)
-KMS_TESTS   := $(wildcard tests/hal/linux/test_display_kms*.c)
-$(DISPLAY_KMS) $(call objects,$(KMS_TESTS)): CPPFLAGS += -isystem /usr/include/libdrm
-$(KMS_TESTS:tests/%.c=$(BUILD)/tests/%): $(DISPLAY_KMS)
+KMS_C     := $(wildcard hal/linux/display_kms*.c) hal/linux/device_user.c hal/linux/board_error.c
+KMS_TESTS := $(wildcard tests/hal/linux/test_display_kms*.c)
+$(eval $(call archive,kms,$(KMS_C)))
+KMS_KERNEL := $(call objects,tests/hal/linux/kms_kernel.c)
+$(call objects,$(KMS_C) $(KMS_TESTS)) $(KMS_KERNEL): CPPFLAGS += -isystem /usr/include/libdrm
+$(KMS_TESTS:tests/%.c=$(BUILD)/tests/%): $(BUILD)/libkms.a
+$(KMS_TESTS:tests/%.c=$(BUILD)/tests/%): LIBS := $(BUILD)/libkms.a $(LIBS)
 $(KMS_TESTS:tests/%.c=$(BUILD)/tests/%): LDLIBS += -ldrm
+$(addprefix $(BUILD)/tests/hal/linux/test_display_kms_,frames dark): $(KMS_KERNEL)
 
 $(BUILD)/tests/firmware/test_frame_tag_jpeg: LDLIBS += -ljpeg
 $(addprefix $(BUILD)/tests/,firmware/test_can_auth firmware/test_can_auth_time firmware/test_can_auth_no_heap \

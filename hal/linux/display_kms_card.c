@@ -4,25 +4,15 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 #include <xf86drm.h>
 
+#include "hal/linux/board_error.h"
 #include "hal/linux/device_user.h"
 
 enum { LIST_LENGTH = 140 };
-
-__attribute__((format(printf, 2, 3))) static hal_status_t refuse(char error[HAL_BOARD_ERROR_LENGTH], const char *format,
-                                                                 ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    (void)vsnprintf(error, HAL_BOARD_ERROR_LENGTH, format, arguments);
-    va_end(arguments);
-    return HAL_IO;
-}
 
 static void note_driver(kms_card_t *card)
 {
@@ -39,8 +29,8 @@ hal_status_t kms_card_open(kms_card_t *card, int32_t number, char error[HAL_BOAR
     if (opened.file < 0 && (errno == ENOENT || errno == ENODEV || errno == ENXIO))
         return HAL_EMPTY;
     if (opened.file < 0)
-        return refuse(error, "display: can't open %s: %s; expected a user of group video (usermod -aG video USER)",
-                      opened.path, strerror(errno));
+        return board_error(error, "display: can't open %s: %s; expected a user of group video (usermod -aG video USER)",
+                           opened.path, strerror(errno));
     drmModeRes *resources = drmModeGetResources(opened.file);
     const bool shows = resources != NULL && resources->count_connectors > 0;
     drmModeFreeResources(resources);
@@ -119,10 +109,10 @@ hal_status_t kms_card_find(kms_card_t *card, drmModeConnector **connector, const
         kms_card_close(&opened);
     }
     if (seen[0] == '\0')
-        return refuse(error, "display: no %s with a connector; expected a loaded graphics driver (ls /dev/dri)",
-                      any ? "/dev/dri/card*" : "such card");
-    return refuse(error, "display: no projector at %s (%s); check cable and power, or the name",
-                  name->connector[0] == '\0' ? "any connector" : name->connector, seen);
+        return board_error(error, "display: no %s with a connector; expected a loaded graphics driver (ls /dev/dri)",
+                           any ? "/dev/dri/card*" : "such card");
+    return board_error(error, "display: no projector at %s (%s); check cable and power, or the name",
+                       name->connector[0] == '\0' ? "any connector" : name->connector, seen);
 }
 
 hal_status_t kms_card_own(const kms_card_t *card, char error[HAL_BOARD_ERROR_LENGTH])
@@ -131,18 +121,19 @@ hal_status_t kms_card_own(const kms_card_t *card, char error[HAL_BOARD_ERROR_LEN
     if (!drmIsMaster(card->file) && drmSetMaster(card->file) != 0) {
         char user[DEVICE_USER_LENGTH];
         device_user(user, card->path);
-        return refuse(error, "display: %s is in use by %s; end that program (fuser -v %s)", card->path, user,
-                      card->path);
+        return board_error(error, "display: %s is in use by %s; end that program (fuser -v %s)", card->path, user,
+                           card->path);
     }
     if (drmSetClientCap(card->file, DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) != 0 ||
         drmSetClientCap(card->file, DRM_CLIENT_CAP_ATOMIC, 1) != 0)
-        return refuse(error,
-                      "display: driver %s of %s has no atomic mode setting; expected one that has (on a Raspberry Pi: "
-                      "dtoverlay=vc4-kms-v3d in config.txt)",
-                      card->driver, card->path);
+        return board_error(
+            error,
+            "display: driver %s of %s has no atomic mode setting; expected one that has (on a Raspberry Pi: "
+            "dtoverlay=vc4-kms-v3d in config.txt)",
+            card->driver, card->path);
     if (drmGetCap(card->file, DRM_CAP_TIMESTAMP_MONOTONIC, &monotonic) != 0 || monotonic == 0 ||
         drmGetCap(card->file, DRM_CAP_DUMB_BUFFER, &dumb) != 0 || dumb == 0)
-        return refuse(error, "display: driver %s of %s lacks monotonic time stamps or dumb buffers; expected both",
-                      card->driver, card->path);
+        return board_error(error, "display: driver %s of %s lacks monotonic time stamps or dumb buffers; expected both",
+                           card->driver, card->path);
     return HAL_OK;
 }

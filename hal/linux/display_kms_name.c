@@ -2,9 +2,10 @@
 // The name of a display, as a board's table has it: a connector, and the card it is on.
 #include "hal/linux/display_kms_name.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "hal/linux/board_error.h"
 
 static const char CARD[] = "card";
 
@@ -27,10 +28,10 @@ bool kms_name_parse(kms_name_t *name, const char *text, char error[HAL_BOARD_ERR
     const int32_t card = colon == NULL ? KMS_ANY_CARD : card_number(text, colon);
     if ((colon != NULL && card == KMS_ANY_CARD) || length == 0 || length >= KMS_NAME_LENGTH ||
         strpbrk(connector, ":/") != NULL) {
-        (void)snprintf(error, HAL_BOARD_ERROR_LENGTH,
-                       "display: found \"%.40s\", expected a connector as ls /sys/class/drm shows it (HDMI-A-1, "
-                       "card1:HDMI-A-1; cards 0 to %d), or auto",
-                       text, KMS_MAX_CARDS - 1);
+        (void)board_error(error,
+                          "display: found \"%.40s\", expected a connector as ls /sys/class/drm shows it (HDMI-A-1, "
+                          "card1:HDMI-A-1; cards 0 to %d), or auto",
+                          text, KMS_MAX_CARDS - 1);
         return false;
     }
     *name = (kms_name_t){.card = card};

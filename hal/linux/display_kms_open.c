@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "hal/linux/board_error.h"
 #include "hal/linux/display_kms.h"
 #include "hal/linux/display_kms_state.h"
 
@@ -20,9 +21,7 @@ __attribute__((format(printf, 3, 4))) static hal_status_t refuse(char error[HAL_
     va_start(arguments, format);
     (void)vsnprintf(what, sizeof what, format, arguments);
     va_end(arguments);
-    (void)snprintf(error, HAL_BOARD_ERROR_LENGTH, "display: card%d:%.20s: %.*s", display->card.number,
-                   display->card.connector_name, HAL_BOARD_ERROR_LENGTH - 50, what);
-    return HAL_IO;
+    return board_error(error, "display: card%d:%s: %s", display->card.number, display->card.connector_name, what);
 }
 
 static double hertz(const kms_mode_wanted_t *wanted)
@@ -103,10 +102,8 @@ hal_status_t display_kms_open(hal_display_t **display, const display_kms_setting
     if (!kms_name_parse(&name, settings->name, error))
         return HAL_BAD_CALL;
     hal_display_t *opened = malloc(sizeof *opened);
-    if (opened == NULL) {
-        (void)snprintf(error, HAL_BOARD_ERROR_LENGTH, "display: out of memory");
-        return HAL_IO;
-    }
+    if (opened == NULL)
+        return board_error(error, "display: out of memory");
     *opened = (hal_display_t){
         .wanted = {settings->width, settings->height, settings->refresh_frames, settings->refresh_seconds},
         .shown = 0,

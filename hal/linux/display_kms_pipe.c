@@ -3,18 +3,18 @@
 #include "hal/linux/display_kms_pipe.h"
 
 #include <errno.h>
-#include <stdio.h>
 #include <xf86drm.h>
+
+#include "hal/linux/board_error.h"
 
 static const char *const COLOUR[KMS_COLOUR_PROPERTIES] = {"CTM", "DEGAMMA_LUT", "GAMMA_LUT"};
 
 static hal_status_t refuse(char error[HAL_BOARD_ERROR_LENGTH], const kms_card_t *card, const char *what)
 {
-    (void)snprintf(error, HAL_BOARD_ERROR_LENGTH,
-                   "display: card%d:%s: no free %s of driver %s; expected one, end other "
-                   "programs that show pictures",
-                   card->number, card->connector_name, what, card->driver);
-    return HAL_IO;
+    return board_error(error,
+                       "display: card%d:%s: no free %s of driver %s; expected one, end other programs that show "
+                       "pictures",
+                       card->number, card->connector_name, what, card->driver);
 }
 
 /* @return Which CRTCs a connector may have, a bit for each. */

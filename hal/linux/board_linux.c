@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// A board that runs Linux: hal_board_open() with its real devices.
+#include <stddef.h>
+
+#include "hal/hal_board.h"
+#include "hal/linux/camera.h"
+#include "hal/linux/can_socketcan.h"
+#include "hal/linux/display_kms.h"
+#include "hal/linux/gpio_gpiod.h"
+#include "hal/linux/realtime_linux.h"
+#include "hal/linux/service_systemd.h"
+#include "hal/linux/time_linux.h"
+#include "hal/linux/watchdog_linux.h"
+
+enum { HIGHEST_PRIORITY = 99 };
+
+/* One step of opening. It leaves nothing behind when it fails. */
+typedef hal_status_t open_fn(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                             char error[HAL_BOARD_ERROR_LENGTH]);
+typedef void close_fn(hal_board_t *board);
+
+static hal_status_t open_clock(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                               char error[HAL_BOARD_ERROR_LENGTH])
+{
+    (void)table;
+    (void)needs;
+    return time_linux_open(&board->clock, error);
+}
+
+static void close_clock(hal_board_t *board)
+{
+    time_linux_close(board->clock);
+}
+
+static hal_status_t open_realtime(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                                  char error[HAL_BOARD_ERROR_LENGTH])
+{
+    (void)board;
+    (void)needs;
+    return realtime_linux_open(table->workers.priority, error);
+}
+
+static void close_realtime(hal_board_t *board)
+{
+    (void)board;
+    realtime_linux_close();
+}
+
+static hal_status_t open_can(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                             char error[HAL_BOARD_ERROR_LENGTH])
+{
+    const can_socketcan_settings_t settings = {
+        .interface = table->can,
+        .bitrate = needs->bitrate,
+        .data_bitrate = needs->data_bitrate,
+        .fd = needs->fd,
+    };
+    return can_socketcan_open(&board->can, &settings, error);
+}
+
+static void close_can(hal_board_t *board)
+{
+    can_socketcan_close(board->can);
+}
+
+/* The camera's thread works for microseconds, and goes before the workers. */
+static hal_status_t open_camera(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                                char error[HAL_BOARD_ERROR_LENGTH])
+{
+    const int32_t workers = table->workers.priority;
+    const camera_settings_t settings = {
+        .name = table->camera,
+        .width = needs->picture_width,
+        .height = needs->picture_height,
+        .rate_frames = needs->refresh_frames,
+        .rate_seconds = needs->refresh_seconds,
+        .priority = workers > 0 && workers < HIGHEST_PRIORITY ? workers + 1 : workers,
+    };
+    return camera_open(&board->camera, &settings, error);
+}
+
+static void close_camera(hal_board_t *board)
+{
+    camera_close(board->camera);
+}
+
+static hal_status_t open_display(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                                 char error[HAL_BOARD_ERROR_LENGTH])
+{
+    const display_kms_settings_t settings = {
+        .name = table->display,
+        .width = needs->panel_width,
+        .height = needs->panel_height,
+        .refresh_frames = needs->refresh_frames,
+        .refresh_seconds = needs->refresh_seconds,
+    };
+    return display_kms_open(&board->display, &settings, error);
+}
+
+static void close_display(hal_board_t *board)
+{
+    display_kms_close(board->display);
+}
+
+static hal_status_t open_lines(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                               char error[HAL_BOARD_ERROR_LENGTH])
+{
+    (void)needs;
+    return gpio_gpiod_open(&board->gpio, &table->lines, error);
+}
+
+static void close_lines(hal_board_t *board)
+{
+    gpio_gpiod_close(board->gpio);
+}
+
+static hal_status_t open_service(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                                 char error[HAL_BOARD_ERROR_LENGTH])
+{
+    (void)table;
+    (void)needs;
+    return service_systemd_open(&board->service, error);
+}
+
+static void close_service(hal_board_t *board)
+{
+    service_systemd_close(board->service);
+}
+
+static hal_status_t open_workers(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                                 char error[HAL_BOARD_ERROR_LENGTH])
+{
+    (void)needs;
+    return hal_workers_open(&board->workers, &table->workers, error);
+}
+
+static void close_workers(hal_board_t *board)
+{
+    hal_workers_close(board->workers);
+}
+
+static hal_status_t open_watchdog(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                                  char error[HAL_BOARD_ERROR_LENGTH])
+{
+    (void)needs;
+    return watchdog_linux_open(&board->watchdog, table->watchdog, error);
+}
+
+static void close_watchdog(hal_board_t *board)
+{
+    watchdog_linux_close(board->watchdog);
+}
+
+/* In order. The lines come after the display, so that the lamp is off before the wall shows the former picture; the
+   watchdog is last, as it runs from open on. */
+static const struct {
+    open_fn *open;
+    close_fn *close;
+} devices[] = {
+    {open_clock, close_clock},     {open_realtime, close_realtime}, {open_can, close_can},
+    {open_camera, close_camera},   {open_display, close_display},   {open_lines, close_lines},
+    {open_service, close_service}, {open_workers, close_workers},   {open_watchdog, close_watchdog},
+};
+
+enum { DEVICES = sizeof devices / sizeof *devices };
+
+_Static_assert((int)HAL_WORKERS_ERROR_LENGTH <= (int)HAL_BOARD_ERROR_LENGTH, "what the workers say must fit");
+
+static void close_first(hal_board_t *board, int count)
+{
+    while (count-- > 0)
+        devices[count].close(board);
+}
+
+hal_status_t hal_board_open(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                            char error[HAL_BOARD_ERROR_LENGTH])
+{
+    hal_board_t opened = {0};
+    for (int i = 0; i < DEVICES; i++)
+        if (devices[i].open(&opened, table, needs, error) != HAL_OK) {
+            close_first(&opened, i);
+            return HAL_IO;
+        }
+    *board = opened;
+    return HAL_OK;
+}
+
+void hal_board_close(hal_board_t *board)
+{
+    close_first(board, DEVICES);
+}
