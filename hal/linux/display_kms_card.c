@@ -108,9 +108,12 @@ hal_status_t kms_card_find(kms_card_t *card, drmModeConnector **connector, const
         }
         kms_card_close(&opened);
     }
+    if (seen[0] == '\0' && any)
+        return board_error(error, "display: no /dev/dri/card* with a connector; expected a loaded graphics driver (ls "
+                                  "/sys/class/drm)");
     if (seen[0] == '\0')
-        return board_error(error, "display: no %s with a connector; expected a loaded graphics driver (ls /dev/dri)",
-                           any ? "/dev/dri/card*" : "such card");
+        return board_error(error, "display: no /dev/dri/card%d with a connector; expected one of ls /sys/class/drm",
+                           name->card);
     return board_error(error, "display: no projector at %s (%s); check cable and power, or the name",
                        name->connector[0] == '\0' ? "any connector" : name->connector, seen);
 }

@@ -30,6 +30,11 @@ static bool is_progressive(const drmModeModeInfo *mode)
     return (mode->flags & (DRM_MODE_FLAG_INTERLACE | DRM_MODE_FLAG_DBLSCAN)) == 0 && mode->vscan <= 1;
 }
 
+static bool has_size(const drmModeModeInfo *mode, int32_t width, int32_t height)
+{
+    return mode->hdisplay == width && mode->vdisplay == height;
+}
+
 int32_t kms_mode_choose(const drmModeModeInfo *modes, int32_t count, const kms_mode_wanted_t *wanted)
 {
     const int64_t rate = INT64_C(1000) * wanted->refresh_frames / wanted->refresh_seconds;
@@ -40,8 +45,7 @@ int32_t kms_mode_choose(const drmModeModeInfo *modes, int32_t count, const kms_m
         const int64_t off = llabs(kms_mode_millihertz(mode) - rate);
         const bool preferred = off == best_off && best != KMS_NO_MODE && (mode->type & DRM_MODE_TYPE_PREFERRED) != 0 &&
                                (modes[best].type & DRM_MODE_TYPE_PREFERRED) == 0;
-        if (mode->hdisplay != wanted->width || mode->vdisplay != wanted->height || !is_progressive(mode) ||
-            (off >= best_off && !preferred))
+        if (!has_size(mode, wanted->width, wanted->height) || !is_progressive(mode) || (off >= best_off && !preferred))
             continue;
         best_off = off;
         best = i;
@@ -64,8 +68,7 @@ static bool is_repeated(const drmModeModeInfo *modes, int32_t index, bool same_r
 {
     const int32_t rate = (kms_mode_millihertz(&modes[index]) + 5) / 10;
     for (int32_t i = 0; i < index; i++)
-        if (is_progressive(&modes[i]) && modes[i].hdisplay == modes[index].hdisplay &&
-            modes[i].vdisplay == modes[index].vdisplay &&
+        if (is_progressive(&modes[i]) && has_size(&modes[i], modes[index].hdisplay, modes[index].vdisplay) &&
             (!same_rate || (kms_mode_millihertz(&modes[i]) + 5) / 10 == rate))
             return true;
     return false;
@@ -80,24 +83,31 @@ static bool append(char *text, size_t size, const char *entry)
     return fits;
 }
 
-void kms_mode_list(char *text, size_t size, const drmModeModeInfo *modes, int32_t count)
+/* All rates of the size that the mode at an index has. @return As append(). */
+static bool append_size(char *text, size_t size, const drmModeModeInfo *modes, int32_t count, int32_t first)
 {
     char entry[ENTRY_LENGTH];
-    text[0] = '\0';
-    for (int32_t first = 0; first < count; first++) {
-        if (!is_progressive(&modes[first]) || is_repeated(modes, first, false))
+    (void)snprintf(entry, sizeof entry, "%s%dx%d at", text[0] == '\0' ? "" : ", ", modes[first].hdisplay,
+                   modes[first].vdisplay);
+    bool fits = append(text, size, entry);
+    for (int32_t i = first; i < count && fits; i++) {
+        if (!is_progressive(&modes[i]) || !has_size(&modes[i], modes[first].hdisplay, modes[first].vdisplay) ||
+            is_repeated(modes, i, true))
             continue;
-        (void)snprintf(entry, sizeof entry, "%s%dx%d at", text[0] == '\0' ? "" : ", ", modes[first].hdisplay,
-                       modes[first].vdisplay);
-        if (!append(text, size, entry))
-            return;
-        for (int32_t i = first; i < count; i++) {
-            if (modes[i].hdisplay != modes[first].hdisplay || modes[i].vdisplay != modes[first].vdisplay ||
-                !is_progressive(&modes[i]) || is_repeated(modes, i, true))
-                continue;
-            write_rate(entry, &modes[i]);
-            if (!append(text, size, entry))
-                return;
-        }
+        write_rate(entry, &modes[i]);
+        fits = append(text, size, entry);
     }
+    return fits;
+}
+
+void kms_mode_list(char *text, size_t size, const drmModeModeInfo *modes, int32_t count,
+                   const kms_mode_wanted_t *wanted)
+{
+    bool fits = true;
+    text[0] = '\0';
+    for (int pass = 0; pass < 2; pass++)
+        for (int32_t i = 0; i < count && fits; i++)
+            if (is_progressive(&modes[i]) && !is_repeated(modes, i, false) &&
+                has_size(&modes[i], wanted->width, wanted->height) == (pass == 0))
+                fits = append_size(text, size, modes, count, i);
 }

@@ -31,11 +31,12 @@ int64_t kms_mode_period_ns(const drmModeModeInfo *mode);
 int32_t kms_mode_choose(const drmModeModeInfo *modes, int32_t count, const kms_mode_wanted_t *wanted);
 
 /**
- * Write what is offered, for people: "1920x1080 at 60 59.94 50, 1280x720 at 60". Interlaced modes are left out. What
- * does not fit is left out at the end, for which "..." stands.
+ * Write what is offered, for people, the wanted size first: "1920x1080 at 60 59.94 50, 1280x720 at 60". Modes that are
+ * never chosen are left out. What does not fit is left out at the end, for which "..." stands.
  *
  * @param[out] text  So many bytes, at least 8; ends with a zero byte.
  */
-void kms_mode_list(char *text, size_t size, const drmModeModeInfo *modes, int32_t count);
+void kms_mode_list(char *text, size_t size, const drmModeModeInfo *modes, int32_t count,
+                   const kms_mode_wanted_t *wanted);
 
 #endif

@@ -61,7 +61,7 @@ static hal_status_t light(hal_display_t *display, const drmModeConnector *connec
     const int failure = kms_state_light(display, connector);
     if (failure == ENOENT) {
         char modes[MODES_LENGTH];
-        kms_mode_list(modes, sizeof modes, connector->modes, connector->count_modes);
+        kms_mode_list(modes, sizeof modes, connector->modes, connector->count_modes, wanted);
         return refuse(error, display, "the projector offers no %dx%d at %.2f Hz; expected in the room file one of: %s",
                       wanted->width, wanted->height, hertz(wanted), modes[0] == '\0' ? "(none)" : modes);
     }

@@ -176,7 +176,7 @@ int kms_pipe_try(const kms_pipe_t *pipe, const kms_scan_t *scan)
     return kms_request_commit(&request, pipe->screen.card, DRM_MODE_ATOMIC_TEST_ONLY, 0);
 }
 
-static int switch_off(const kms_pipe_t *pipe)
+int kms_pipe_darken(const kms_pipe_t *pipe)
 {
     kms_request_t request = {0};
     kms_request_add(&request, pipe->connector, pipe->connector_crtc, 0);
@@ -192,7 +192,7 @@ void kms_pipe_close(kms_pipe_t *pipe)
 {
     if (pipe->mode != 0 &&
         kms_request_commit(&pipe->former, pipe->screen.card, DRM_MODE_ATOMIC_ALLOW_MODESET, 0) != 0 &&
-        switch_off(pipe) != 0) {
+        kms_pipe_darken(pipe) != 0) {
         /* the display is gone, or another program's: there is nothing left to set back */
     }
     for (int i = 0; i <= KMS_COLOUR_PROPERTIES; i++)

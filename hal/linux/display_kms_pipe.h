@@ -60,6 +60,14 @@ int kms_pipe_flip(const kms_pipe_t *pipe, const kms_scan_t *scan, uint64_t token
 /** Could it be shown in place of what is there? Nothing is changed. @return 0, or an errno. */
 int kms_pipe_try(const kms_pipe_t *pipe, const kms_scan_t *scan);
 
+/**
+ * Switch the output off. Lighting it afterwards begins with it anew, which a projector that was without power needs:
+ * the kernel leaves out what seems to be as it was.
+ *
+ * @return 0, or an errno.
+ */
+int kms_pipe_darken(const kms_pipe_t *pipe);
+
 /** Set everything back to the noted values; where that is refused, switch the output off. */
 void kms_pipe_close(kms_pipe_t *pipe);
 

@@ -53,9 +53,18 @@ int kms_pipe_flip(const kms_pipe_t *pipe, const kms_scan_t *scan, uint64_t token
 int kms_pipe_light(const kms_pipe_t *pipe, const kms_scan_t *scan)
 {
     assert_ptr_equal(pipe, &kms_display.pipe);
+    assert_true(kms_kernel.darkened);
+    kms_kernel.darkened = false;
     kms_kernel.lights++;
     kms_kernel.lit = *scan;
     return kms_kernel.answer;
+}
+
+int kms_pipe_darken(const kms_pipe_t *pipe)
+{
+    assert_ptr_equal(pipe, &kms_display.pipe);
+    kms_kernel.darkened = true;
+    return 0;
 }
 
 int kms_pipe_set_mode(kms_pipe_t *pipe, const drmModeModeInfo *mode)

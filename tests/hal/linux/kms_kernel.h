@@ -14,6 +14,7 @@ enum { KMS_KERNEL_WIDTH = 8, KMS_KERNEL_HEIGHT = 4, KMS_KERNEL_NV12 = 100 };
 typedef struct {
     int answer;                   /**< to flips and lights: 0 or an errno */
     int32_t flips, lights, asked; /**< how many; asked: for a blank without a flip */
+    bool darkened;                /**< since the last light */
     kms_scan_t flown, lit;        /**< the newest of each */
     uint64_t token;               /**< of the newest flip */
     bool blanks;                  /**< the driver has vertical blanks */

@@ -96,22 +96,26 @@ static void another_rate_or_size_is_none(void **state)
 static void the_list_is_short(void **state)
 {
     (void)state;
+    const kms_mode_wanted_t other = {640, 480, 60, 1}, small = {1280, 720, 50, 1};
     char text[200];
-    kms_mode_list(text, sizeof text, offered, OFFERED);
+    kms_mode_list(text, sizeof text, offered, OFFERED, &other);
     assert_string_equal(text, "1280x800 at 59.81, 1920x1080 at 59.94 60 50 24, 1280x720 at 60");
-    kms_mode_list(text, sizeof text, offered, 0);
+    kms_mode_list(text, sizeof text, offered, OFFERED, &small);
+    assert_string_equal(text, "1280x720 at 60, 1280x800 at 59.81, 1920x1080 at 59.94 60 50 24");
+    kms_mode_list(text, sizeof text, offered, 0, &small);
     assert_string_equal(text, "");
 }
 
-/* In every room the list ends in it, with a whole entry, and says when it is not complete. */
+/* In every room the list ends in it, and what is left out is seen. */
 static void the_list_fits(void **state)
 {
     (void)state;
+    const kms_mode_wanted_t wanted = {640, 480, 60, 1};
     char whole[200], text[200];
-    kms_mode_list(whole, sizeof whole, offered, OFFERED);
+    kms_mode_list(whole, sizeof whole, offered, OFFERED, &wanted);
     for (size_t size = 8; size < strlen(whole) + 10; size++) {
         memset(text, '#', sizeof text);
-        kms_mode_list(text, size, offered, OFFERED);
+        kms_mode_list(text, size, offered, OFFERED, &wanted);
         const char *end = strstr(text, "...");
         const size_t same = end == NULL ? strlen(text) : (size_t)(end - text);
         assert_true(memchr(text, '\0', size) != NULL);
