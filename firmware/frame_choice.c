@@ -106,6 +106,8 @@ void frame_choice_step(frame_choice_t *choice, const can_poses_t *poses, const b
 {
     const int64_t blank_bus_us = bus_time_from_local(&time->time, blank_us);
     choice->genlocked = choice->house_any && blank_us - choice->house_us < FRAME_CHOICE_HOUSE_US;
+    if (blank_us - frame_choice_newest(choice)->frame.capture_time_us > FRAME_CHOICE_CAMERA_US)
+        choice->lag = (picture_lag_t){.lag_us = 0};
     const frame_blank_t blank = {
         .now_us = blank_us,
         .blank_us = blank_bus_us,

@@ -16,7 +16,8 @@
 #include "hal/hal_gpio.h"
 
 enum {
-    FRAME_CHOICE_HOUSE_US = 200000, /**< without an edge for so long there is no house signal */
+    FRAME_CHOICE_HOUSE_US = 200000,   /**< without an edge for so long there is no house signal */
+    FRAME_CHOICE_CAMERA_US = 1000000, /**< without a picture for so long there is no camera, for which others wait */
     FRAME_CHOICE_TIME_US = 250, /**< bus time must be right to this, so that boards say nearly the same of a picture */
     FRAME_CHOICE_WAITING = HAL_CAMERA_LENT - 1, /**< pictures that may be captured, but not due yet */
     FRAME_CHOICE_EDGE_US = 500 /**< a picture captured so near to the limit may be another board's next one */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Eight whole projectors with clocks of their own and a tracker, compared at every refresh.
+// Eight whole projectors with clocks of their own and a tracker, compared content by content.
 #ifndef TESTS_FIRMWARE_AGREEMENT_BENCH_H
 #define TESTS_FIRMWARE_AGREEMENT_BENCH_H
 
@@ -17,7 +17,7 @@
 #include "sim/run/sim_world.h"
 #include "tests/support/scratch.h"
 
-enum { BOARDS = 8, HZ = 60, POSES_HZ = 237, START_S = 25, SEED = 3, TEXT_LENGTH = 4096 };
+enum { BOARDS = 8, HZ = 60, POSES_HZ = 237, START_S = 25, SEED = 3, TEXT_LENGTH = 4096, CONTENTS = 16 };
 
 static const sim_rate_t REFRESH = {8333, HZ, 1};
 
@@ -29,9 +29,12 @@ typedef struct {
     pose_sender_t sender;
     int64_t step, shown, in_step;
     int64_t last_in_step[BOARDS]; /* refresh at which each was in step last */
+    int64_t number[CONTENTS];     /* the newest contents; each as the first board in step showed it */
+    can_step_t content[CONTENTS];
 } bench_t;
 
-static inline void load_room(room_t *room)
+/* display_ms: of each board's projector; NULL: none takes any time. */
+static inline void load_room(room_t *room, const double display_ms[BOARDS])
 {
     scratch_t scratch;
     char path[SCRATCH_PATH_LENGTH], text[TEXT_LENGTH], error[ROOM_MESSAGE_LENGTH] = "";
@@ -40,8 +43,9 @@ static inline void load_room(room_t *room)
     for (int i = 1; i <= BOARDS; i++)
         length += snprintf(text + length, sizeof text - (size_t)length,
                            "  - name: wall%d\n    node: %d\n    projector: {width: 16, height: 9}\n"
+                           "    display_delay_ms: %.3f\n"
                            "    wall: {corners_mm: [[-2000, -1125, %d], [2000, -1125, %d], [2000, 1125, %d], null]}\n",
-                           i, i, 1000 * i, 1000 * i, 1000 * i);
+                           i, i, display_ms == NULL ? 0 : display_ms[i - 1], 1000 * i, 1000 * i, 1000 * i);
     scratch_open(&scratch);
     scratch_path(&scratch, "room.yaml", path);
     scratch_write(path, text, strlen(text));
@@ -63,11 +67,11 @@ static inline void make_walk(pose_list_t *list, int seconds)
         };
 }
 
-static inline void bench_open(bench_t *b, int seconds)
+static inline void bench_open_with(bench_t *b, int seconds, const double display_ms[BOARDS])
 {
     char error[FILE_ERROR_LENGTH] = "";
     memset(b, 0, sizeof *b);
-    load_room(&b->room);
+    load_room(&b->room, display_ms);
     make_walk(&b->list, seconds);
     b->video = video_open("pattern", 96, 54, error);
     assert_string_equal(error, "");
@@ -85,6 +89,11 @@ static inline void bench_open(bench_t *b, int seconds)
     assert_true(pose_sender_open(&b->sender, &sender));
 }
 
+static inline void bench_open(bench_t *b, int seconds)
+{
+    bench_open_with(b, seconds, NULL);
+}
+
 static inline void bench_close(bench_t *b)
 {
     sim_world_destroy(b->world);
@@ -92,25 +101,37 @@ static inline void bench_close(bench_t *b)
     free(b->list.entry);
 }
 
-/* All boards that are in step at this refresh show the same picture for the same pose. */
+/* Whoever shows a content in step shows the same picture for the same pose; at this refresh or at another. */
+static inline void compare_content(bench_t *b, int board, const frame_step_t *refresh, const can_step_t *step)
+{
+    const size_t place = (size_t)refresh->content % CONTENTS;
+    const can_step_t *first = &b->content[place];
+    if (b->number[place] != refresh->content) {
+        b->number[place] = refresh->content;
+        b->content[place] = *step;
+    } else if (step->refresh != first->refresh || step->picture != first->picture || step->pose_us != first->pose_us)
+        fail_msg("seed %d, step %lld: board %d shows picture %u at refresh %u, pose %llu us; another %u at %u, %llu us",
+                 SEED, (long long)b->step, board + 1, step->picture, step->refresh, (unsigned long long)step->pose_us,
+                 first->picture, first->refresh, (unsigned long long)first->pose_us);
+}
+
+/* And all boards in step number this refresh alike. */
 static inline void compare(bench_t *b)
 {
-    can_step_t first = {.in_step = false};
+    int64_t number = -1;
     for (int i = 0; i < BOARDS; i++) {
         const projector_t *projector = sim_world_projector(b->world, i);
-        const can_step_t step = projector->report.agreement;
+        const frame_step_t *refresh = &projector->choice.step;
         b->shown++;
-        if (!step.in_step)
+        if (!projector->report.agreement.in_step)
             continue;
         b->in_step++;
         b->last_in_step[i] = b->step;
-        if (!first.in_step)
-            first = step;
-        if (step.refresh != first.refresh || step.picture != first.picture || step.pose_us != first.pose_us)
-            fail_msg(
-                "seed %d, step %lld: board %d shows picture %u at refresh %u, pose %llu us; another %u at %u, %llu us",
-                SEED, (long long)b->step, i + 1, step.picture, step.refresh, (unsigned long long)step.pose_us,
-                first.picture, first.refresh, (unsigned long long)first.pose_us);
+        if (number >= 0 && refresh->number != number)
+            fail_msg("seed %d, step %lld: board %d has refresh %lld, another %lld", SEED, (long long)b->step, i + 1,
+                     (long long)refresh->number, (long long)number);
+        number = refresh->number;
+        compare_content(b, i, refresh, &projector->report.agreement);
     }
 }
 
