@@ -52,11 +52,13 @@ static bool same_epoch(const frame_epoch_t *a, const frame_epoch_t *b)
            a->target_ms == b->target_ms;
 }
 
-/* An epoch that was noticed only now: what held before it is not known. */
+/* An epoch that was noticed only now: it may have begun at the refresh at which it was announced, and what held before
+ * is not known. */
 static void catch_up(frame_clock_t *clock, const frame_epoch_t *epoch)
 {
     clock->missed += clock->proven;
     clock->now = *epoch;
+    clock->now.from += FRAME_LEAD_PAST;
     clock->before.any = false;
     clock->proven = false;
 }
@@ -68,10 +70,17 @@ static bool is_newer(const frame_epoch_t *a, const frame_epoch_t *b)
     return !b->any || (ahead > 0 && ahead < CAN_EPOCHS / 2);
 }
 
+void frame_clock_drop_change(frame_clock_t *clock)
+{
+    if (clock->next.any)
+        clock->doubt = clock->next;
+    clock->next.any = false;
+}
+
 void frame_clock_follow(frame_clock_t *clock, uint8_t leader)
 {
     if (clock->leader != leader)
-        clock->next.any = false; /* the old leader's change is off */
+        frame_clock_drop_change(clock); /* the old leader's */
     clock->changes += clock->leader != 0 && clock->leader != leader;
     clock->leader = leader;
     clock->leading = leader == clock->node;
@@ -80,6 +89,14 @@ void frame_clock_follow(frame_clock_t *clock, uint8_t leader)
 static bool is_proven(const frame_clock_t *clock, int64_t now_us)
 {
     return clock->proven && now_us - clock->proven_us < FRAME_CLOCK_PROOF_US;
+}
+
+/* What holds is known, and what is announced. */
+static void prove(frame_clock_t *clock, int64_t now_us)
+{
+    clock->proven = true;
+    clock->proven_us = now_us;
+    clock->doubt.any = false;
 }
 
 static bool is_silent(const frame_clock_t *clock, int64_t now_us)
@@ -101,8 +118,7 @@ static void hear_own(frame_clock_t *clock, const can_frame_clock_t *heard, int64
     clock->own_us = now_us;
     if (now_us - clock->own_since_us < OWN_RUN_US)
         return;
-    clock->proven = true;
-    clock->proven_us = now_us;
+    prove(clock, now_us);
 }
 
 /*
@@ -136,8 +152,7 @@ static void obey(frame_clock_t *clock, const frame_epoch_t *epoch, const can_fra
     clock->next.any &= heard->changes;
     if (!heard->sure || (heard->changes && !clock->next.any))
         return; /* what was proven until now stays so: there is time to hear of the change */
-    clock->proven = true;
-    clock->proven_us = now_us;
+    prove(clock, now_us);
 }
 
 static can_check_t hear_latency(frame_clock_t *clock, const hal_can_frame_t *frame, int64_t now_us)
@@ -186,6 +201,8 @@ can_check_t frame_clock_hear(frame_clock_t *clock, const hal_can_frame_t *frame,
 static int64_t find_number(frame_clock_t *clock, const frame_blank_t *blank)
 {
     const int64_t number = nearest(clock, &clock->now, blank->blank_us);
+    if (clock->doubt.any && number >= clock->doubt.from)
+        clock->proven = false;
     if (!clock->next.any || number < clock->next.from)
         return number;
     /* Who has lost the leader, or as leader the others, since cannot know whether they have changed. */

@@ -96,6 +96,7 @@ typedef struct {
     int32_t pose_delay_us, display_us;
     frame_epoch_t now, next; /**< next.any: announced, does not hold yet */
     frame_epoch_t before;    /**< any: held until now.from */
+    frame_epoch_t doubt;     /**< any: was dropped; others may take it, unless a leader is heard since */
     room_latency_t room;     /**< what all boards ask for */
     bool leading;
     uint8_t leader;   /**< whom it follows, or followed last; 0: nobody yet */

@@ -137,7 +137,7 @@ static void announce(frame_clock_t *clock, hal_can_t *can, int64_t number, int64
         return;
     if (clock->next.any && !send(clock, can, &clock->next, clock->next.from))
         return;
-    if (!send(clock, can, &clock->now, number - 2)) /* whoever hears it is past that */
+    if (!send(clock, can, &clock->now, number - FRAME_LEAD_PAST)) /* whoever hears it is past that */
         return;
     clock->sent_us = now_us;
     clock->due_us = now_us + CAN_FRAME_CLOCK_PERIOD_MS * 1000;
@@ -154,7 +154,7 @@ static void cease_to_lead(frame_clock_t *clock, int64_t now_us)
 {
     clock->leading = false;
     clock->leader = 0;
-    clock->next.any = false;
+    frame_clock_drop_change(clock);
     clock->quiet_since_us = now_us;
 }
 
