@@ -4,24 +4,48 @@
 
 #include <string.h>
 
+#include "firmware/byte_order.h"
+#include "firmware/can_protocol.h"
 #include "sim/devices/sim_clock.h"
 
-enum { HEADER_BYTES = 2, WAIT_MS = 1 };
+enum { HEADER_BYTES = 2, NUMBER_BYTES = 4, WAIT_MS = 1 };
 
-static void begin(board_talk_t *talk, int64_t now_us)
+static void ask(board_talk_t *talk, int64_t now_us)
 {
     uint8_t bytes[COMMAND_MAX_BYTES];
     isotp_init(&talk->link, CAN_ID_REPLY + (uint32_t)talk->node, CAN_ID_COMMAND + (uint32_t)talk->node);
     (void)isotp_send(&talk->link, bytes, command_encode(bytes, &talk->request), now_us);
-    talk->begun = true;
+    talk->tries++;
+    talk->heard_us = now_us;
 }
 
-/* A reply to someone else's request is not ours. */
+/* Ask the next one that is due. One request a turn: many at once would fill the queue of an interface. */
+static void ask_next(board_talk_t *talk, int count, int64_t quiet_us)
+{
+    const int64_t now_us = sim_clock_monotonic_us();
+    for (int i = 0; i < count; i++) {
+        const bool due = talk[i].tries == 0 || now_us - talk[i].heard_us >= quiet_us;
+        if (talk[i].replied || !due || talk[i].tries == BOARD_TALK_TRIES)
+            continue;
+        ask(&talk[i], now_us);
+        return;
+    }
+}
+
+/* A reply to someone else's request is not ours; nor is a late one to a request for earlier events. */
+static bool is_ours(const board_talk_t *talk, const uint8_t *bytes, int length)
+{
+    if (length < HEADER_BYTES || bytes[0] != ((uint8_t)talk->request.kind | COMMAND_REPLY_FLAG))
+        return false;
+    return talk->request.kind != COMMAND_LOG || length < HEADER_BYTES + NUMBER_BYTES ||
+           get_u32(bytes + HEADER_BYTES) >= talk->request.first_event;
+}
+
 static void take_reply(board_talk_t *talk)
 {
     const uint8_t *bytes;
     const int length = isotp_received(&talk->link, &bytes);
-    if (length >= HEADER_BYTES && bytes[0] == ((uint8_t)talk->request.kind | COMMAND_REPLY_FLAG)) {
+    if (length > 0 && is_ours(talk, bytes, length)) {
         talk->replied = true;
         talk->result = bytes[1];
         talk->length = length - HEADER_BYTES;
@@ -35,50 +59,49 @@ static bool send_due(pose_link_t *bus, board_talk_t *talk, int count, char error
 {
     hal_can_frame_t frame;
     for (int i = 0; i < count; i++)
-        while (talk[i].begun && isotp_next(&talk[i].link, &frame, sim_clock_monotonic_us()))
+        while (talk[i].tries > 0 && isotp_next(&talk[i].link, &frame, sim_clock_monotonic_us()))
             if (!pose_link_send(bus, &frame, 1, error))
                 return false;
     return true;
 }
 
-/* @return Was it one of a reply? */
-static bool take_frame(board_talk_t *talk, int count, const hal_can_frame_t *frame)
+static void take_frame(board_talk_t *talk, int count, const hal_can_frame_t *frame)
 {
+    const int64_t now_us = sim_clock_monotonic_us();
     for (int i = 0; i < count; i++) {
-        if (!talk[i].begun || talk[i].replied || !isotp_take(&talk[i].link, frame, sim_clock_monotonic_us()))
+        talk[i].alive |= !frame->extended && frame->id == CAN_ID_HEARTBEAT + (uint32_t)talk[i].node;
+        if (talk[i].tries == 0 || talk[i].replied || !isotp_take(&talk[i].link, frame, now_us))
             continue;
+        talk[i].heard_us = now_us;
+        talk[i].answering = true;
         take_reply(&talk[i]);
-        return true;
     }
-    return false;
 }
 
-static bool all_replied(const board_talk_t *talk, int count)
+static bool all_settled(const board_talk_t *talk, int count, int64_t quiet_us)
 {
-    int replied = 0;
+    const int64_t now_us = sim_clock_monotonic_us();
+    int settled = 0;
     for (int i = 0; i < count; i++)
-        replied += talk[i].replied;
-    return replied == count;
+        settled += talk[i].replied || (talk[i].tries == BOARD_TALK_TRIES && now_us - talk[i].heard_us >= quiet_us);
+    return settled == count;
 }
 
 bool board_talk(pose_link_t *bus, board_talk_t *talk, int count, int64_t quiet_us, const volatile sig_atomic_t *stop,
                 char error[POSE_LINK_MESSAGE_LENGTH])
 {
-    int64_t heard_us = sim_clock_monotonic_us();
     for (int i = 0; i < count; i++)
-        talk[i].begun = talk[i].replied = false;
-    int begun = 0; /* one request a turn: many at once would fill the queue of an interface */
-    while (!all_replied(talk, count) && sim_clock_monotonic_us() - heard_us < quiet_us && !*stop) {
-        if (begun < count)
-            begin(&talk[begun++], sim_clock_monotonic_us());
+        talk[i] = (board_talk_t){.node = talk[i].node, .request = talk[i].request};
+    while (!all_settled(talk, count, quiet_us) && !*stop) {
+        ask_next(talk, count, quiet_us);
         if (!send_due(bus, talk, count, error))
             return false;
         hal_can_frame_t frame;
         const pose_link_heard_t heard = pose_link_receive(bus, &frame, WAIT_MS, error);
         if (heard == POSE_LINK_ENDED)
             return false;
-        if (heard == POSE_LINK_FRAME && take_frame(talk, count, &frame))
-            heard_us = sim_clock_monotonic_us();
+        if (heard == POSE_LINK_FRAME)
+            take_frame(talk, count, &frame);
     }
     return true;
 }

@@ -11,25 +11,33 @@
 #include "firmware/isotp.h"
 #include "sim/pose/pose_link.h"
 
+enum { BOARD_TALK_TRIES = 3 };
+
 /** One request to one board. */
 typedef struct {
     uint8_t node; /**< 1 to CAN_MAX_NODE */
     command_t request;
+    int tries;      /**< how often it was asked: more than once when it, or a frame of either message, was not heard */
+    bool alive;     /**< its heartbeat was heard meanwhile, */
+    bool answering; /**< and frames of a reply, maybe not a whole one */
     bool replied;   /**< the rest means something: */
     uint8_t result; /**< a command_result_t, or a newer one */
     int length;     /**< bytes of the answer behind it */
     uint8_t answer[COMMAND_REPLY_BYTES];
 
     isotp_t link; /**< the module's own from here on */
-    bool begun;
+    int64_t heard_us;
 } board_talk_t;
 
 /**
- * Send requests and wait for the replies, until all are here, or none has gone on for so long.
+ * Send requests and wait for the replies, until all are here or given up.
+ *
+ * A board that is silent for so long is asked again: the whole request, BOARD_TALK_TRIES times in all. None does more
+ * when it is heard twice. A board that waits for a lost frame of ours is silent for up to ISOTP_TIMEOUT_US.
  *
  * @param         bus       Listening.
  * @param[in,out] talk      node and request are read, the rest is written. Each node once.
- * @param         quiet_us  How long a board may be silent.
+ * @param         quiet_us  How long a board may be silent; ISOTP_TIMEOUT_US in all its tries, or more.
  * @param         stop      Ends it when it becomes non-zero.
  * @param[out]    error     On failure: one line without newline.
  * @return false when the link has failed. Boards that did not reply are no failure.

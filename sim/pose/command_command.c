@@ -15,7 +15,7 @@
 #include "sim/pose/request_text.h"
 #include "sim/program.h"
 
-enum { KEY_ALL = 256, QUIET_US = 3000000, ROLL_CALL_US = 1500000, NUMBER_BYTES = 4, HELLO_BYTES = 5 };
+enum { KEY_ALL = 256, QUIET_US = 1000000, ROLL_CALL_US = 500000, NUMBER_BYTES = 4, HELLO_BYTES = 5 };
 
 typedef struct {
     const char *bus, *name, *value;
@@ -31,6 +31,7 @@ typedef struct {
     pose_link_t link;
     board_talk_t talk[CAN_MAX_NODE];
     int boards;
+    bool some_missing; /* a board is there that did not answer the roll call */
 } session_t;
 
 static void check_usage(struct argp_state *state, options_t *options)
@@ -96,11 +97,23 @@ static bool say_latency(const session_t *session, const board_talk_t *talk)
     return say(session, talk->node, text);
 }
 
+static bool say_silent(const session_t *session, const board_talk_t *talk)
+{
+    return say(session, talk->node,
+               talk->answering ? "replies, but no reply comes whole: frames are lost; see `wallwarp-pose check`"
+               : talk->alive   ? "sends its heartbeat, but does not reply; is another asking it, or its firmware older?"
+                               : "is silent, without a heartbeat; power, cable, bit rate? Its node number? "
+                                 "`wallwarp-pose monitor` shows who is there");
+}
+
 /* @return Has the board done it? Else that is said. */
 static bool is_done(const session_t *session, const board_talk_t *talk)
 {
     if (!talk->replied)
-        return say(session, talk->node, "does not reply; is it on this bus, and running?");
+        return say_silent(session, talk);
+    if (talk->tries > 1)
+        fprintf(stderr, "%s: board %d had to be asked %d times; are frames lost? See `wallwarp-pose check`\n",
+                session->program, talk->node, talk->tries);
     if (talk->result == COMMAND_IMPOSSIBLE && talk->request.kind == COMMAND_LATENCY && talk->length >= 2 * NUMBER_BYTES)
         return say_latency(session, talk);
     if (talk->result != COMMAND_OK)
@@ -131,14 +144,18 @@ static bool call_the_roll(session_t *session)
         session->talk[i] = (board_talk_t){.node = (uint8_t)(i + 1), .request = {.kind = COMMAND_HELLO}};
     if (!ask(session, ROLL_CALL_US))
         return false;
-    int boards = 0;
-    for (int i = 0; i < CAN_MAX_NODE; i++)
-        if (session->talk[i].replied)
-            session->talk[boards++] = session->talk[i];
-    session->boards = boards;
-    if (boards == 0)
-        fprintf(stderr, "%s: no board replies; are they on this bus, and running?\n", session->program);
-    return boards > 0;
+    session->boards = 0;
+    for (int i = 0; i < CAN_MAX_NODE; i++) {
+        const board_talk_t *talk = &session->talk[i];
+        if (talk->replied)
+            session->talk[session->boards++] = *talk;
+        else if (talk->alive || talk->answering)
+            session->some_missing = !say_silent(session, talk);
+    }
+    if (session->boards == 0 && !session->some_missing)
+        fprintf(stderr, "%s: no board is there; power, cable, bit rate? Two nodes or more must be on a bus\n",
+                session->program);
+    return session->boards > 0;
 }
 
 static void print_answer(const board_talk_t *talk)
@@ -228,9 +245,9 @@ static bool tell(session_t *session, const options_t *options)
     const bool asked = options->node == 0 && request.kind == COMMAND_HELLO;
     if (!asked && !ask(session, QUIET_US))
         return false;
+    bool done = !session->some_missing;
     if (log)
-        return read_logs(session, options->whole_log);
-    bool done = true;
+        return read_logs(session, options->whole_log) && done;
     for (int i = 0; i < session->boards; i++) {
         if (is_done(session, &session->talk[i]))
             print_answer(&session->talk[i]);

@@ -51,7 +51,7 @@ test_commands() {
     tell all pattern none
     tell 2 latency 40.5 && grep -qx 'board 2: latency 40.500 ms wanted' "$scratch/stdout"
     check "latency is wanted" $?
-    refuses_command 1 "board 9 does not reply; is it on this bus, and running?" --bus "$bus" --node 9 hello
+    refuses_command 1 "board 9 is silent, without a heartbeat; power, cable, bit rate?" --bus "$bus" --node 9 hello
     tell 2 reboot
     check "a board is told to start anew" $?
     test_log

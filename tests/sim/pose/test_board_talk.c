@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "firmware/can_protocol.h"
 #include "sim/devices/sim_clock.h"
 #include "sim/pose/board_talk.h"
 #include "tests/support/socketcand_bench.h"
@@ -30,6 +31,9 @@ typedef struct {
     int replies;
     uint8_t request[COMMAND_MAX_BYTES];
     int request_length;
+    bool one_each;         /* one reply a request */
+    int lost_in, lost_out; /* number of the frame to the board, or from it, that is lost; 0: none */
+    bool heartbeat;        /* the board sends one after each turn */
     int unsent;
 } scene_t;
 
@@ -43,7 +47,8 @@ static void turn(void)
     hal_can_frame_t frame;
     socketcand_bench_turn(&scene.bench, 1);
     while (hal_can_receive(scene.bench.board, &frame) == HAL_OK)
-        (void)isotp_take(&scene.link, &frame, now_us);
+        if (--scene.lost_in != 0)
+            (void)isotp_take(&scene.link, &frame, now_us);
     const int length = isotp_received(&scene.link, &request);
     if (length > 0 && length <= COMMAND_MAX_BYTES) {
         memcpy(scene.request, request, (size_t)length);
@@ -52,11 +57,14 @@ static void turn(void)
     if (scene.request_length > 0 && scene.replies > 0 && !isotp_sending(&scene.link)) {
         scene.replies--;
         (void)isotp_send(&scene.link, scene.reply[scene.replies].bytes, scene.reply[scene.replies].length, now_us);
+        scene.request_length *= !scene.one_each;
     }
     isotp_taken(&scene.link);
     while (isotp_next(&scene.link, &frame, now_us))
-        if (hal_can_send(scene.bench.board, &frame) != HAL_OK)
+        if (--scene.lost_out != 0 && hal_can_send(scene.bench.board, &frame) != HAL_OK)
             scene.unsent++;
+    if (scene.heartbeat && can_heartbeat_encode(&frame, &(can_heartbeat_t){.node = NODE}))
+        scene.unsent += hal_can_send(scene.bench.board, &frame) != HAL_OK;
 }
 
 static void *play(void *context)
@@ -152,6 +160,57 @@ static void test_only_who_is_there_replies(void **state)
     assert_false(talk[0].replied);
     assert_true(talk[1].replied);
     assert_false(talk[2].replied);
+    assert_true(talk[1].tries < BOARD_TALK_TRIES);
+    assert_true(talk[0].tries == BOARD_TALK_TRIES && talk[2].tries == BOARD_TALK_TRIES);
+    assert_true(!talk[0].answering && !talk[0].alive);
+}
+
+/* Frames of a request of three, then of a reply of 30 bytes: the first, one in the middle, the last; and a flow control
+ * of either side, for which a board waits ISOTP_TIMEOUT_US. */
+static void test_a_lost_frame_costs_a_try(void **state)
+{
+    static const uint8_t reply[30] = {COMMAND_METHOD | COMMAND_REPLY_FLAG, COMMAND_OK, 1, 2, 3};
+    static const struct {
+        int in, out;
+    } lost[] = {{1, 0}, {2, 0}, {3, 0}, {4, 0}, {0, 1}, {0, 2}, {0, 4}, {0, 6}};
+    for (size_t i = 0; i < sizeof lost / sizeof lost[0]; i++) {
+        (void)open_scene(state);
+        scene.one_each = true;
+        scene.lost_in = lost[i].in;
+        scene.lost_out = lost[i].out;
+        for (int n = 0; n < MOST_REPLIES; n++)
+            add_reply(reply, sizeof reply);
+        board_talk_t talk = {.node = NODE};
+        talk.request = (command_t){.kind = COMMAND_METHOD, .method = warp_method_from_name("kaiser+nearest")};
+        assert_true(talk_to(&talk, 1));
+        if (!talk.replied || talk.tries < 2 || talk.length != 28 || memcmp(talk.answer, reply + 2, 28) != 0)
+            fail_msg("lost %d, %d: replied %d, tries %d", lost[i].in, lost[i].out, talk.replied, talk.tries);
+        (void)close_scene(state);
+    }
+}
+
+static void test_what_is_heard_of_a_board_that_does_not_reply(void **state)
+{
+    (void)state;
+    add_reply("\x83\x00", 2); /* to another request */
+    scene.heartbeat = true;
+    board_talk_t talk[2] = {{.node = NODE, .request = {.kind = COMMAND_HELLO}},
+                            {.node = OTHER_NODE, .request = {.kind = COMMAND_HELLO}}};
+    assert_true(talk_to(talk, 2));
+    assert_true(!talk[0].replied && talk[0].alive && talk[0].answering);
+    assert_true(!talk[1].replied && !talk[1].alive && !talk[1].answering);
+}
+
+/* The reply to a first try may come when it has been asked again, and the second one when it is asked for more. */
+static void test_a_reply_with_earlier_events_is_passed_over(void **state)
+{
+    (void)state;
+    add_reply("\x87\x00\x34\x12\x00\x00", 6);
+    add_reply("\x87\x00\x33\x12\x00\x00", 6);
+    board_talk_t talk = {.node = NODE, .request = {.kind = COMMAND_LOG, .first_event = 0x1234}};
+    assert_true(talk_to(&talk, 1));
+    assert_true(talk.replied);
+    assert_int_equal(talk.answer[0], 0x34);
 }
 
 static void test_bus_that_goes_is_an_error(void **state)
@@ -191,6 +250,9 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_long_request_and_reply, open_scene, close_scene),
         cmocka_unit_test_setup_teardown(test_reply_to_another_request_is_passed_over, open_scene, close_scene),
         cmocka_unit_test_setup_teardown(test_only_who_is_there_replies, open_scene, close_scene),
+        cmocka_unit_test(test_a_lost_frame_costs_a_try),
+        cmocka_unit_test_setup_teardown(test_what_is_heard_of_a_board_that_does_not_reply, open_scene, close_scene),
+        cmocka_unit_test_setup_teardown(test_a_reply_with_earlier_events_is_passed_over, open_scene, close_scene),
         cmocka_unit_test_setup_teardown(test_bus_that_goes_is_an_error, open_scene, close_scene),
         cmocka_unit_test(test_stop_ends_the_wait),
     };
