@@ -6,11 +6,22 @@
 .SECONDARY:
 .SUFFIXES:
 
+# The board to build for, one of board/*/: its board.mk names the devices to link with (HAL: sim or linux), the compiler's
+# prefix (CROSS: none for this machine), and flags for its CPU.
+BOARD := host
+BOARDS := $(patsubst board/%/board.mk,%,$(wildcard board/*/board.mk))
+CROSS :=
+CPU   :=
+$(if $(filter $(BOARD),$(BOARDS)),,$(error BOARD=$(BOARD): there is no board/$(BOARD)/board.mk; expected one of: $(BOARDS)))
+include board/$(BOARD)/board.mk
+$(if $(filter sim linux,$(HAL)),,$(error board/$(BOARD)/board.mk: HAL is "$(HAL)"; expected sim or linux))
+
 # What a variant build changes: make BUILD=build/clang-O0 CC=clang OPT=-O0
-CC    := gcc
-CXX   := g++
+CC    := $(CROSS)gcc
+CXX   := $(CROSS)g++
+AR    := $(CROSS)ar
 OPT   := -O3
-BUILD := build/host
+BUILD := build/$(BOARD)
 V     :=
 Q     := $(if $(V),,@)
 
@@ -21,18 +32,25 @@ CFLAGS := -std=c11 $(OPT) -g -Wall -Wextra -Werror -Wpedantic -Wshadow -Wconvers
 CPPFLAGS := -I. -MMD -MP -D_GNU_SOURCE
 LDLIBS   := -Wl,--as-needed -lcyaml -lyaml -lpng -lz -ljansson -lcbor -llo -lm -lpthread
 
-PROGRAMS := wallwarp wallwarp-sim wallwarp-eval wallwarp-pose
+# Another machine's programs see its headers and libraries in place of this one's.
+SYSROOT := $(if $(CROSS),build/sysroot)
+MACHINE := $(CPU) $(SYSROOT:%=--sysroot=%) $(if $(findstring clang,$(CC)),$(CROSS:%-=--target=%))
+
+PROGRAMS := wallwarp wallwarp-pose $(if $(filter sim,$(HAL)),wallwarp-sim wallwarp-eval)
 MAINS    := firmware/main.c sim/wallwarp_sim.c sim/wallwarp_eval.c sim/wallwarp_pose.c
 
 WARP_C     := $(wildcard warp_fixed/*.c)
-HAL_C      := $(addprefix hal/linux/,workers_pthread.c key_file.c)
-# Devices of Linux boards; this machine's own programs have the simulator's.
-LINUX_C    := $(addprefix hal/linux/,board_error.c can_socketcan.c gpio_gpiod.c realtime_linux.c socketcan_frame.c \
-              socketcan_link.c socketcan_netlink.c socketcan_socket.c socketcan_stamp.c time_linux.c watchdog_linux.c \
-              gpio_gpiod_v$(firstword $(subst ., ,$(shell pkg-config --modversion libgpiod))).c)
+# Of no board's own, so that the simulator has them too; the rest are the devices of Linux boards.
+HAL_C      := $(wildcard $(addprefix hal/linux/,workers_pthread.c key_file.c random_linux.c))
+GPIOD      := $(if $(shell grep -s gpiod_request_config $(SYSROOT)/usr/include/gpiod.h),2,1)
+LINUX_C    := $(filter-out $(HAL_C) hal/linux/gpio_gpiod_v%.c,$(wildcard hal/linux/*.c)) \
+              $(wildcard hal/linux/gpio_gpiod_v$(GPIOD).c)
+LINUX_CXX  := $(wildcard hal/linux/*.cpp)
+LINUX_LIBS := -lgpiod -lmnl -ldrm -lsystemd -ludev
 FIRMWARE_C := $(filter-out $(MAINS),$(wildcard firmware/*.c firmware/*/*.c))
 SIM_C      := $(filter-out $(MAINS),$(wildcard sim/*.c sim/*/*.c))
-TESTS_C    := $(wildcard tests/*/test_*.c tests/*/*/test_*.c)
+# What is in tests/board/virtual runs on the virtual board: see test-board.
+TESTS_C    := $(filter-out tests/board/virtual/%,$(wildcard tests/*/test_*.c tests/*/*/test_*.c))
 
 objects = $(patsubst %,$(BUILD)/obj/%.o,$(1))
 TESTS   := $(patsubst tests/%.c,$(BUILD)/tests/%,$(TESTS_C))
@@ -42,14 +60,19 @@ HELPERS := $(BUILD)/tests/sim/bus/serve_bus $(addprefix $(BUILD)/tests/firmware/
            $(BUILD)/cache_plugin.so
 
 .PHONY: all programs
-all: setup-demo ## Build the firmware and the tools for this machine into build/host
+all: setup-$(if $(CROSS),board,demo) ## Build firmware and tools into build/host, or for another board: make BOARD=rpi4
 	$(Q)$(MAKE) --no-print-directory programs
 programs: $(PROGRAMS:%=$(BUILD)/%)
 
 # Install what is missing, once: see board/setup.sh.
-.PHONY: setup-demo setup-test setup-bench
-setup-demo setup-test setup-bench:
+.PHONY: setup-demo setup-test setup-bench setup-board
+setup-demo setup-test setup-bench setup-board:
 	$(Q)board/setup.sh $(@:setup-%=%)
+
+build/sysroot.made: board/sysroot.sh
+	$(if $(V),,@echo "  ROOT  build/sysroot")
+	$(Q)board/sysroot.sh build/sysroot
+	$(Q)touch $@
 
 .PHONY: demo
 demo: setup-demo ## Run a room of three walls and a floor, and write the page build/demo/index.html
@@ -62,10 +85,13 @@ study: setup-demo ## Do the paper's experiments again, and write the page build/
 	$(Q)$(MAKE) --no-print-directory programs
 	$(Q)$(BUILD)/wallwarp-eval study --out build/study
 
-$(BUILD)/obj/%.c.o: %.c
+# "=" is the sysroot.
+$(BUILD)/obj/hal/linux/%.o $(BUILD)/obj/tests/hal/linux/%.o $(BUILD)/obj/tests/board/virtual/%.o: \
+    CPPFLAGS += -isystem =/usr/include/libdrm
+$(BUILD)/obj/%.c.o: %.c | $(SYSROOT:%=%.made)
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  CC    $<")
-	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -c $< -o $@
+	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(MACHINE) -c $< -o $@
 
 # NEON's lanes wrap; SIMDe makes them of signed integers in C.
 # gcc 12: SIMDe's loops end it with an internal error ("in compute_live_loop_exits") unless partial redundancies stay,
@@ -78,7 +104,7 @@ $(BUILD)/obj/sim/study/study_files.S.o: sim/study/study_page.html $(wildcard tes
 $(BUILD)/obj/%.S.o: %.S
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  AS    $<")
-	$(Q)$(CC) -I. -c $< -o $@
+	$(Q)$(CC) $(MACHINE) -I. -c $< -o $@
 
 define archive
 $(BUILD)/lib$(1).a: $(call objects,$(2))
@@ -97,11 +123,19 @@ LIBS := $(BUILD)/libsim.a $(BUILD)/libfirmware.a $(BUILD)/libhal.a $(BUILD)/libw
 define link
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  LINK  $@")
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %support.a,$^) -Wl,--start-group $(LIBS) -Wl,--end-group $(LDLIBS) $(1)
+	$(Q)$(CC) $(CFLAGS) $(MACHINE) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %support.a,$^) \
+	    -Wl,--start-group $(LIBS) -Wl,--end-group $(LDLIBS) $(1)
 endef
 
-$(BUILD)/wallwarp: $(call objects,firmware/main.c board/host/board.c) $(LIBS)
-	$(call link)
+# Programs and tests that drive Linux's devices have these in place of the simulator's.
+ON_LINUX := $(if $(filter linux,$(HAL)),$(BUILD)/wallwarp) \
+            $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/hal/linux/*.c tests/board/virtual/*.c))
+$(ON_LINUX): $(BUILD)/liblinux.a
+$(ON_LINUX): LIBS := $(BUILD)/liblinux.a $(filter-out %/libsim.a,$(LIBS))
+$(ON_LINUX): LDLIBS += $(LINUX_LIBS)
+
+$(BUILD)/wallwarp: $(call objects,firmware/main.c board/$(BOARD)/board.c $(if $(filter linux,$(HAL)),$(LINUX_CXX))) $(LIBS)
+	$(call link,$(if $(filter linux,$(HAL)),-lcamera -lcamera-base -lstdc++))
 $(BUILD)/wallwarp-%: $(BUILD)/obj/sim/wallwarp_%.c.o $(LIBS)
 	$(call link)
 # A test's own hal_can_*() comes before the simulator's in the archives.
@@ -114,23 +148,8 @@ $(BUILD)/tests/sim/pose/send_pose: sim/pose/examples/send_pose.c
 	$(Q)$(CC) -std=c11 $(OPT) -Wall -Wextra -Werror -Wpedantic -o $@ $< -lm
 $(BUILD)/tests/sim/pose/test_send_pose: $(BUILD)/tests/sim/pose/send_pose
 
-# Tests of a Linux board's devices are linked with these in place of the simulator's.
-LINUX_TESTS := $(addprefix $(BUILD)/tests/hal/linux/test_,socketcan_frame socketcan_stamp socketcan_link can_socketcan \
-               gpio_gpiod watchdog_linux time_linux realtime_linux)
-$(LINUX_TESTS): $(BUILD)/liblinux.a
-$(LINUX_TESTS): LIBS := $(BUILD)/liblinux.a
-$(LINUX_TESTS): LDLIBS += -lmnl -lgpiod
-
-# The display of Linux, which no library of the host holds.
-KMS_C     := $(wildcard hal/linux/display_kms*.c) hal/linux/device_user.c hal/linux/board_error.c
-KMS_TESTS := $(wildcard tests/hal/linux/test_display_kms*.c)
-$(eval $(call archive,kms,$(KMS_C)))
-KMS_KERNEL := $(call objects,tests/hal/linux/kms_kernel.c)
-$(call objects,$(KMS_C) $(KMS_TESTS)) $(KMS_KERNEL): CPPFLAGS += -isystem /usr/include/libdrm
-$(KMS_TESTS:tests/%.c=$(BUILD)/tests/%): $(BUILD)/libkms.a
-$(KMS_TESTS:tests/%.c=$(BUILD)/tests/%): LIBS := $(BUILD)/libkms.a $(LIBS)
-$(KMS_TESTS:tests/%.c=$(BUILD)/tests/%): LDLIBS += -ldrm
-$(addprefix $(BUILD)/tests/hal/linux/test_display_kms_,frames dark): $(KMS_KERNEL)
+# The kernel's part of a display, played.
+$(addprefix $(BUILD)/tests/hal/linux/test_display_kms_,frames dark): $(call objects,tests/hal/linux/kms_kernel.c)
 
 $(BUILD)/tests/firmware/test_frame_tag_jpeg: LDLIBS += -ljpeg
 $(addprefix $(BUILD)/tests/,firmware/test_can_auth firmware/test_can_auth_time firmware/test_can_auth_no_heap \
@@ -180,7 +199,7 @@ golden_check = tests/golden/check.sh $(call emulated,$(1))build/variants/$(1)/go
 kernel_check = $(call emulated,$(1))build/variants/$(1)/check_kernels
 # SIMDe is slow without optimisation.
 levels       = scalar $(if $(filter %-O3,$(1)),neon)
-SCRIPTS      := $(wildcard tests/*/test_*.sh tests/*/*/test_*.sh)
+SCRIPTS      := $(filter-out tests/board/virtual/%,$(wildcard tests/*/test_*.sh tests/*/*/test_*.sh))
 RUN_TESTS     = $(foreach t,$(TESTS),'$(t)') $(foreach s,$(SCRIPTS),'$(s) $(BUILD)') \
                 $(foreach v,$(GOLDEN_VARIANTS),$(foreach l,$(call levels,$(v)),'$(call golden_check,$(v)) $(l)')) \
                 $(foreach v,$(KERNEL_VARIANTS),'$(call kernel_check,$(v))') \
@@ -238,11 +257,11 @@ $(BUILD)/bench_x86: $(call objects,$(wildcard tests/bench/*_x86.c tests/bench/x8
     $(BUILD)/libwarp.a
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lopencv_imgproc -lopencv_core -lstdc++ -lm -lpthread
-$(BUILD)/obj/%.cpp.o: %.cpp
+$(BUILD)/obj/%.cpp.o: %.cpp | $(SYSROOT:%=%.made)
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  CXX   $<")
-	$(Q)$(CXX) $(CPPFLAGS) -isystem /usr/include/opencv4 -std=c++11 $(OPT) -g -Wall -Wextra -Werror -Wpedantic -Wshadow \
-	    -Wconversion -Wsign-conversion -c $< -o $@
+	$(Q)$(CXX) $(CPPFLAGS) -isystem =/usr/include/opencv4 -isystem =/usr/include/libcamera -std=c++17 $(OPT) -g -Wall -Wextra \
+	    -Werror -Wpedantic -Wshadow -Wconversion -Wsign-conversion $(MACHINE) -c $< -o $@
 
 # Everything but the CSV goes to stderr. BASELINE=new makes these counts the ones that later runs are held to.
 ARM      := build/variants/aarch64-linux-gnu-gcc-O3
@@ -285,7 +304,6 @@ run-fuzz: $(FUZZERS)
 	$(Q)tests/fuzz/run.sh $(BUILD) $(SECONDS)
 
 # What a board needs is printed from its own tables by a program of this machine, whatever the board is built with.
-BOARD   := host
 HOST_CC := gcc
 INFO     = build/info/$(BOARD)
 .PHONY: info

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Installs the packages that this tree needs and this machine lacks: board/setup.sh [demo|test|bench]
+# Installs the packages that this tree needs and this machine lacks: board/setup.sh [demo|test|bench|board]
 set -u
 
 packages_file=$(dirname "$0")/host/packages
@@ -47,7 +47,11 @@ find_right() {
 go_on_without_apt() {
     say "this is no Debian system; it needs what Debian calls: $*"
     tools='gcc make gnuplot'
-    [ "$group" != demo ] && tools="$tools clang aarch64-linux-gnu-gcc qemu-aarch64 python3"
+    case $group in
+    test | bench) tools="$tools clang python3" ;;
+    board) tools="$tools mmdebstrap aarch64-linux-gnu-g++ qemu-system-aarch64 modprobe cpio" ;;
+    esac
+    [ "$group" != demo ] && tools="$tools aarch64-linux-gnu-gcc qemu-aarch64"
     [ "$group" = bench ] && tools="$tools llvm-objdump llvm-mca g++"
     for tool in $tools; do
         command -v "$tool" >/dev/null || fail "$tool is not here: install it and the others with this system's own tools"
@@ -74,12 +78,13 @@ install_packages() {
 }
 
 group=${1-test}
-[ $# -le 1 ] || fail "expected one argument at most: demo, test or bench"
+[ $# -le 1 ] || fail "expected one argument at most: demo, test, bench or board"
 case $group in
 demo) needed=$(packages_of demo) ;;
-test) needed=$(packages_of demo test) ;;
-bench) needed=$(packages_of demo test bench) ;;
-*) fail "unknown argument '$group', expected demo, test or bench" ;;
+test) needed=$(packages_of demo arm test) ;;
+bench) needed=$(packages_of demo arm test bench) ;;
+board) needed=$(packages_of demo arm board) ;;
+*) fail "unknown argument '$group', expected demo, test, bench or board" ;;
 esac
 [ -n "$needed" ] || fail "$packages_file lists no packages"
 

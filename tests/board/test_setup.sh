@@ -153,6 +153,13 @@ exits 0
 said 'setup: installing: llvm libopencv-imgproc-dev'
 did 'Timeout=300 llvm libopencv-imgproc-dev'
 
+name='root, boards'
+machine 0 none
+have_all_but qemu-user clang qemu-system-arm
+run board
+exits 0
+said 'setup: installing: qemu-user qemu-system-arm'
+
 name='sudo without a password'
 machine 1000 free
 run demo
@@ -239,6 +246,9 @@ exits 0
 run bench
 exits 1
 said 'g++ is not here'
+run board
+exits 1
+said 'mmdebstrap is not here'
 
 name='no Debian, no compiler'
 remove_tool gcc
@@ -257,10 +267,10 @@ name='wrong arguments'
 machine 0 none
 run everything
 exits 1
-said "unknown argument 'everything', expected demo, test or bench"
+said "unknown argument 'everything', expected demo, test, bench or board"
 run demo test
 exits 1
-said 'expected one argument at most: demo, test or bench'
+said 'expected one argument at most: demo, test, bench or board'
 did_nothing
 
 echo "$passed passed, $failed failed"
