@@ -85,9 +85,8 @@ study: setup-demo ## Do the paper's experiments again, and write the page build/
 	$(Q)$(MAKE) --no-print-directory programs
 	$(Q)$(BUILD)/wallwarp-eval study --out build/study
 
-# "=" is the sysroot.
 $(BUILD)/obj/hal/linux/%.o $(BUILD)/obj/tests/hal/linux/%.o $(BUILD)/obj/tests/board/virtual/%.o: \
-    CPPFLAGS += -isystem =/usr/include/libdrm
+    CPPFLAGS += -isystem $(SYSROOT)/usr/include/libdrm
 $(BUILD)/obj/%.c.o: %.c | $(SYSROOT:%=%.made)
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  CC    $<")
@@ -260,7 +259,7 @@ $(BUILD)/bench_x86: $(call objects,$(wildcard tests/bench/*_x86.c tests/bench/x8
 $(BUILD)/obj/%.cpp.o: %.cpp | $(SYSROOT:%=%.made)
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  CXX   $<")
-	$(Q)$(CXX) $(CPPFLAGS) -isystem =/usr/include/opencv4 -isystem =/usr/include/libcamera -std=c++17 $(OPT) -g -Wall -Wextra \
+	$(Q)$(CXX) $(CPPFLAGS) -isystem $(SYSROOT)/usr/include/opencv4 -isystem $(SYSROOT)/usr/include/libcamera -std=c++17 $(OPT) -g -Wall -Wextra \
 	    -Werror -Wpedantic -Wshadow -Wconversion -Wsign-conversion $(MACHINE) -c $< -o $@
 
 # Everything but the CSV goes to stderr. BASELINE=new makes these counts the ones that later runs are held to.
