@@ -41,20 +41,22 @@ static void read_name(char name[NAME_LENGTH], long process)
         (void)fclose(file);
 }
 
-void device_user(char user[DEVICE_USER_LENGTH], const char *device)
+bool device_user(char user[DEVICE_USER_LENGTH], const char *device)
 {
     (void)snprintf(user, DEVICE_USER_LENGTH, "another program");
     DIR *processes = opendir("/proc");
     const struct dirent *entry;
-    while (processes != NULL && (entry = readdir(processes)) != NULL) {
+    bool found = false;
+    while (!found && processes != NULL && (entry = readdir(processes)) != NULL) {
         const long process = strtol(entry->d_name, NULL, 10);
         if (process <= 0 || process == (long)getpid() || !has_open(process, device))
             continue;
         char name[NAME_LENGTH];
         read_name(name, process);
         (void)snprintf(user, DEVICE_USER_LENGTH, "%s (process %ld)", name, process);
-        break;
+        found = true;
     }
     if (processes != NULL)
         closedir(processes);
+    return found;
 }

@@ -3,6 +3,8 @@
 #ifndef HAL_LINUX_DEVICE_USER_H
 #define HAL_LINUX_DEVICE_USER_H
 
+#include <stdbool.h>
+
 enum { DEVICE_USER_LENGTH = 64 };
 
 /**
@@ -11,7 +13,8 @@ enum { DEVICE_USER_LENGTH = 64 };
  * at every open file of every process.
  *
  * @param path  Of the device: /dev/dri/card0.
+ * @return Does /proc tell of one?
  */
-void device_user(char user[DEVICE_USER_LENGTH], const char *path);
+bool device_user(char user[DEVICE_USER_LENGTH], const char *path);
 
 #endif

@@ -123,7 +123,7 @@ hal_status_t kms_card_own(const kms_card_t *card, char error[HAL_BOARD_ERROR_LEN
     uint64_t monotonic = 0, dumb = 0;
     if (!drmIsMaster(card->file) && drmSetMaster(card->file) != 0) {
         char user[DEVICE_USER_LENGTH];
-        device_user(user, card->path);
+        (void)device_user(user, card->path);
         return board_error(error, "display: %s is in use by %s; end that program (fuser -v %s)", card->path, user,
                            card->path);
     }
