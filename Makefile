@@ -126,7 +126,7 @@ define link
 	    -Wl,--start-group $(LIBS) -Wl,--end-group $(LDLIBS) $(1)
 endef
 
-# Programs and tests that drive Linux's devices have these in place of the simulator's.
+# Programs and tests that drive Linux's devices have them in place of the simulator's.
 ON_LINUX := $(if $(filter linux,$(HAL)),$(BUILD)/wallwarp) \
             $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/hal/linux/*.c tests/board/virtual/*.c))
 $(ON_LINUX): $(BUILD)/liblinux.a
@@ -227,6 +227,28 @@ run-unit-tests: $(TESTS) $(CHECK_KERNELS)
 sanitize-threads: setup-test ## Run the workers' test with the thread sanitizer
 	$(Q)$(MAKE) --no-print-directory BUILD=build/sanitize-threads OPT='-O1 -fsanitize=thread' \
 	    TESTS_C=tests/hal/linux/test_workers_pthread.c CHECK_KERNELS= run-unit-tests
+
+# --- the virtual board ------------------------------------------------------------------------------------------------
+
+build/board-kernel.made: tests/board/virtual/kernel.sh
+	$(if $(V),,@echo "  KERNEL build/board-kernel")
+	$(Q)tests/board/virtual/kernel.sh build/board-kernel
+	$(Q)touch $@
+build/board-kernel/initramfs.gz: tests/board/virtual/initramfs.sh tests/board/virtual/init.sh build/board-kernel.made \
+    build/sysroot.made
+	$(Q)tests/board/virtual/initramfs.sh build/sysroot build/board-kernel
+
+# Programs that its tests run on it, check_*.c and probe_*.c; other files there are parts of theirs.
+VIRTUAL_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/board/virtual/check_*.c tests/board/virtual/probe_*.c))
+
+VIRTUAL_TESTS    := $(wildcard tests/board/virtual/test_*.sh)
+
+.PHONY: test-board virtual-programs
+test-board: setup-board ## Boot a virtual arm64 board and run the firmware in it; the last line says how many tests passed
+	$(Q)$(MAKE) --no-print-directory programs
+	$(Q)$(MAKE) --no-print-directory BOARD=qemu-virt virtual-programs
+	$(Q)tests/board/virtual/run.sh build/test-board build/qemu-virt $(VIRTUAL_TESTS)
+virtual-programs: programs $(VIRTUAL_PROGRAMS) build/board-kernel/initramfs.gz
 
 # --- benchmarks ------------------------------------------------------------------------------------------------------
 

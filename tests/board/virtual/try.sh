@@ -1,7 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Boots the virtual board, runs one command in it and ends it: tests/board/virtual/try.sh [-t SECONDS] COMMAND
-# /tree in it is this tree, read-only; what the command writes into /share is left in build/try/share.
+# Boots a virtual board, runs one command in it, and ends it with the command's exit status.
+#
+# usage: tests/board/virtual/try.sh [-t SECONDS] COMMAND      COMMAND finds this tree in /tree, read-only, and leaves files
+#                                                             in /share, which is build/try/share here
 set -u
 cd "$(dirname "$0")/../../.." || exit 1
 . tests/board/virtual/vm.sh

@@ -1,60 +1,83 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: Apache-2.0
-# Host's side of the virtual board, to be sourced: start it, run commands in it, look at its display, stop it.
+# The virtual board as seen from this machine, for scripts to source: start it, run commands in it, look at its display.
 #
-# The board's root is made of build/sysroot and build/board-kernel and forgets its changes. In it, /tree is the tree of
-# this project, read-only, and /share is $VM/share here. A board is known by its folder $VM: any number of shells may
-# set VM and use the same one.
+# A board is known by its folder VM; any number of shells may use one at a time. Its root is build/sysroot above
+# build/board-kernel/root, and forgets its changes. /tree in it is this tree, read-only; /share is $VM/share, and both
+# sides see at once what is in it. What it and qemu say is in $VM/console and $VM/qemu. boot.sh says which devices it has.
 #
-#   vm_start FOLDER [QEMU_OPTION...]     sets VM=FOLDER, made anew, and returns when commands can be run
-#   vm_run [-t SECONDS] COMMAND          prints what the command prints; its exit status, or 124 after SECONDS (60),
-#                                        or 125 when the board is gone
-#   vm_monitor COMMAND                   one line to qemu's monitor; prints its answer
-#   vm_screenshot FILE                   what the display shows, as a PPM
-#   vm_has_event NAME                    whether qemu has told of this: WATCHDOG, SHUTDOWN ...
-#   vm_stop                              ends the board, in whatever state it is
+#   vm_use                             for tests that leave the board as they found it: the one that run.sh's tests share,
+#                                      or this script's own
+#   vm_start FOLDER [QEMU_OPTION...]   a new one, VM=FOLDER. Returns when commands can be run; on failure says why
+#   vm_run [-t SECONDS] COMMAND        runs it in a shell of the board and prints what it prints. Exit status: its own,
+#                                      124 after SECONDS (60), 125 when the board is gone
+#   vm_screenshot FILE [DEVICE]        what a display shows, as a PPM: gpu, or another device's id
+#   vm_monitor COMMAND                 a line to qemu's monitor; prints the answer
+#   vm_has_event NAME                  whether qemu has told of it: WATCHDOG, SHUTDOWN ...
+#   vm_alive                           whether it runs
+#   vm_stop                            ends it as a lost power supply does
+# Each call is bounded in time. A board is ended after VM_SECONDS, whatever becomes of those who use it.
 VM=${VM-}
+VM_SECONDS=900
+VM_START_SECONDS=120
+
+vm_use() {
+    if [ -z "${VM_SHARED-}" ]; then
+        trap vm_stop EXIT
+        vm_start "build/vm-$(basename "$0" .sh)"
+        return
+    fi
+    VM=$VM_SHARED
+    vm_alive || vm_start "$VM"
+}
 
 vm_start() {
+    local i
     VM=$1
     shift
+    vm_stop
     rm -rf "$VM"
     mkdir -p "$VM/share/jobs" || return 1
     cp tests/board/virtual/{boot,agent}.sh "$VM/share/"
-    mkfifo "$VM"/{monitor,control}.in
+    # Pipes to qemu; a file for its answers, and none for the board's.
+    mkfifo "$VM"/{monitor,jobs}.in
     : >"$VM/monitor.out"
-    ln -s /dev/null "$VM/control.out"
-    qemu-system-aarch64 -M virt -cpu cortex-a72 -smp 2 -accel tcg,thread=multi -m 1024 -display none -nodefaults \
-        -kernel build/board-kernel/vmlinuz -initrd build/board-kernel/initramfs.gz \
-        -append 'console=ttyAMA0 panic=-1 quiet' -no-reboot -serial "file:$VM/console" \
-        -fsdev local,id=sysroot,path=build/sysroot,security_model=none,readonly=on \
-        -fsdev local,id=kernel,path=build/board-kernel/root,security_model=none,readonly=on \
-        -fsdev local,id=tree,path=.,security_model=none,readonly=on \
-        -fsdev "local,id=share,path=$VM/share,security_model=none" \
-        -device virtio-9p-pci,fsdev=sysroot,mount_tag=sysroot -device virtio-9p-pci,fsdev=kernel,mount_tag=kernel \
-        -device virtio-9p-pci,fsdev=tree,mount_tag=tree -device virtio-9p-pci,fsdev=share,mount_tag=share \
-        -chardev "pipe,id=control,path=$VM/control" -device virtio-serial-pci -device virtserialport,chardev=control \
-        -chardev "pipe,id=monitor,path=$VM/monitor" -mon chardev=monitor,mode=control \
-        -object can-bus,id=wire0 -device kvaser_pci,canbus=wire0 -device kvaser_pci,canbus=wire0 \
-        -object can-bus,id=wire1 -device ctucan_pci,canbus0=wire1,canbus1=wire1 \
-        -device virtio-gpu-pci,id=gpu -device i6300esb -action watchdog=reset \
-        "$@" </dev/null >"$VM/qemu" 2>&1 &
+    ln -s /dev/null "$VM/jobs.out"
+    vm_qemu "$@" </dev/null >"$VM/qemu" 2>&1 &
     echo $! >"$VM/pid"
-    for ((i = 0; i < 1200; i++)); do
-        if [ -e "$VM/share/up" ]; then
-            vm_qmp qmp_capabilities >"$VM/qmp" && return 0
-        fi
+    for ((i = 0; i < VM_START_SECONDS * 10; i++)); do
+        [ -e "$VM/share/up" ] && vm_qmp qmp_capabilities '{}' >/dev/null && return 0
         vm_alive || break
         sleep 0.1
     done
-    echo "vm: the board did not start; what it and qemu said is in $VM" >&2
+    echo "vm: the board did not start; the end of what it and qemu said, in $VM:" >&2
     tail -n 15 "$VM/console" "$VM/qemu" >&2
     vm_stop
     return 1
 }
 
+# Two wires of CAN; reset and panic end it.
+vm_qemu() {
+    local folder folders=()
+    for folder in sysroot=build/sysroot kernel=build/board-kernel/root tree=.; do
+        folders+=(-fsdev "local,id=${folder%%=*},path=${folder#*=},security_model=none,readonly=on"
+            -device "virtio-9p-pci,fsdev=${folder%%=*},mount_tag=${folder%%=*}")
+    done
+    exec timeout -k 5 "$VM_SECONDS" qemu-system-aarch64 -M virt -cpu cortex-a72 -smp 2 -m 1024 \
+        -accel tcg,thread=multi -nodefaults -display none -no-reboot -serial "file:$VM/console" \
+        -kernel build/board-kernel/vmlinuz -initrd build/board-kernel/initramfs.gz \
+        -append 'console=ttyAMA0 panic=-1 quiet' \
+        -chardev "pipe,id=jobs,path=$VM/jobs" -device virtio-serial-pci -device virtserialport,chardev=jobs \
+        -chardev "pipe,id=monitor,path=$VM/monitor" -mon chardev=monitor,mode=control \
+        "${folders[@]}" -fsdev "local,id=share,path=$VM/share,security_model=none" \
+        -device virtio-9p-pci,fsdev=share,mount_tag=share \
+        -object can-bus,id=wire0 -device kvaser_pci,canbus=wire0 -device kvaser_pci,canbus=wire0 \
+        -object can-bus,id=wire1 -device ctucan_pci,canbus0=wire1,canbus1=wire1 \
+        -device virtio-gpu-pci,id=gpu -device i6300esb -action watchdog=reset "$@"
+}
+
 vm_alive() {
-    kill -0 "$(cat "$VM/pid")" 2>/dev/null
+    [ -e "$VM/pid" ] && kill -0 "$(cat "$VM/pid")" 2>/dev/null
 }
 
 vm_run() {
@@ -63,30 +86,33 @@ vm_run() {
         seconds=$2
         shift 2
     fi
-    job=$(mktemp -d "$VM/share/jobs/XXXXXX")
-    chmod 755 "$job"
-    echo "$1" >"$job/command"
     vm_alive || return 125
-    echo "${job##*/}" 1<>"$VM/control.in"
+    job=$(mktemp -d "$VM/share/jobs/XXXXXX") || return 125
+    echo "$1" >"$job/command"
+    # Opened for both directions, so that nothing hangs when the board ends meanwhile.
+    echo "${job##*/}" 1<>"$VM/jobs.in"
     for ((i = 0; i < seconds * 20; i++)); do
         if [ -e "$job/status" ]; then
             cat "$job/output"
             return "$(cat "$job/status")"
         fi
-        vm_alive || return 125
+        vm_alive || break
         sleep 0.05
     done
     cat "$job/output"
-    return 124
+    if vm_alive; then
+        return 124
+    fi
+    return 125
 }
 
-# A command of qemu's own protocol, with its arguments as JSON or none; prints the line of its answer.
+# vm_qmp COMMAND ARGUMENTS: a command of qemu's own protocol, with its arguments as JSON; prints the line of its answer.
 vm_qmp() {
     local id=$BASHPID.$RANDOM i
-    # Opened for both, so that nothing hangs when the board is gone.
-    echo "{\"execute\": \"$1\", \"arguments\": ${2-{\}}, \"id\": \"$id\"}" 1<>"$VM/monitor.in"
+    vm_alive || return 125
+    echo "{\"execute\": \"$1\", \"arguments\": $2, \"id\": \"$id\"}" 1<>"$VM/monitor.in"
     for ((i = 0; i < 600; i++)); do
-        grep -F "\"id\": \"$id\"" "$VM/monitor.out" && return
+        grep -F "\"id\": \"$id\"" "$VM/monitor.out" && return 0
         vm_alive || return 125
         sleep 0.05
     done
@@ -97,13 +123,17 @@ vm_monitor() {
     local answer
     answer=$(vm_qmp human-monitor-command "{\"command-line\": \"$1\"}") || return
     answer=${answer#'{"return": "'}
-    printf '%b' "${answer%%'", "id": '*}" | tr -d '\r'
+    printf '%b' "${answer%'", "id": '*}" | tr -d '\r'
 }
 
 vm_screenshot() {
     local answer
-    answer=$(vm_qmp screendump "{\"filename\": \"$1\", \"device\": \"gpu\"}") || return
-    [ "${answer#'{"return"'}" != "$answer" ] || { echo "vm: no screenshot: $answer" >&2; return 1; }
+    answer=$(vm_qmp screendump "{\"filename\": \"$1\", \"device\": \"${2-gpu}\"}") || return
+    case $answer in
+    '{"return"'*) return 0 ;;
+    esac
+    echo "vm: no screenshot: $answer" >&2
+    return 1
 }
 
 vm_has_event() {
@@ -111,7 +141,10 @@ vm_has_event() {
 }
 
 vm_stop() {
+    [ -e "$VM/pid" ] || return 0
     kill "$(cat "$VM/pid")" 2>/dev/null
-    wait "$(cat "$VM/pid")" 2>/dev/null
+    while vm_alive; do
+        sleep 0.05
+    done
     return 0
 }
