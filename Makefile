@@ -133,6 +133,9 @@ $(ON_LINUX): $(BUILD)/liblinux.a
 $(ON_LINUX): LIBS := $(BUILD)/liblinux.a $(filter-out %/libsim.a,$(LIBS))
 $(ON_LINUX): LDLIBS += $(LINUX_LIBS)
 
+# What any HAL must do, with the devices of the virtual board.
+$(addprefix $(BUILD)/tests/board/virtual/,hal_can hal_gpio): $(BUILD)/tests/board/virtual/%: $(BUILD)/obj/tests/hal/test_%.c.o
+
 $(BUILD)/wallwarp: $(call objects,firmware/main.c board/$(BOARD)/board.c $(if $(filter linux,$(HAL)),$(LINUX_CXX))) $(LIBS)
 	$(call link,$(if $(filter linux,$(HAL)),-lcamera -lcamera-base -lstdc++))
 $(BUILD)/wallwarp-%: $(BUILD)/obj/sim/wallwarp_%.c.o $(LIBS)

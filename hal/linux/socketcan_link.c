@@ -13,7 +13,7 @@
 
 #include "hal/linux/board_error.h"
 
-enum { TOLERANCE = 200, COMMAND_LENGTH = 160 };
+enum { TOLERANCE = 200, COMMAND_LENGTH = 192 };
 
 static bool fits(const struct nlattr *attribute, size_t size)
 {
@@ -125,8 +125,8 @@ static void command_for(char command[COMMAND_LENGTH], const socketcan_link_t *li
         snprintf(data, sizeof data, " dbitrate %d fd on", wanted->data_bitrate);
     if (link->controller)
         snprintf(command, COMMAND_LENGTH,
-                 "`ip link set %s down; ip link set %s up txqueuelen 64 type can bitrate %d%s restart-ms 100`",
-                 link->name, link->name, wanted->bitrate, data);
+                 "`ip link set %s down; ip link set %s up txqueuelen 64 type can bitrate %d%s restart-ms 100%s`",
+                 link->name, link->name, wanted->bitrate, data, link->listen_only ? " listen-only off" : "");
     else
         snprintf(command, COMMAND_LENGTH, "`ip link set %s down; ip link set %s up mtu %d`", link->name, link->name,
                  wanted->fd ? (int)CANFD_MTU : (int)CAN_MTU);
@@ -145,6 +145,8 @@ hal_status_t socketcan_link_check(const socketcan_link_t *link, const can_socket
     command_for(command, link, wanted);
     if (!link->can)
         return board_error(error, "can %s: is no CAN interface, expected one of `ip link show type can`", link->name);
+    if (!link->up)
+        return board_error(error, "can %s: is down: %s", link->name, command);
     if (is_other_rate(link->bitrate, wanted->bitrate))
         return board_error(error, "can %s: bitrate %u, the room has %d: %s", link->name, link->bitrate, wanted->bitrate,
                            command);
@@ -154,9 +156,7 @@ hal_status_t socketcan_link_check(const socketcan_link_t *link, const can_socket
         return board_error(error, "can %s: dbitrate %u, the room has %d: %s", link->name, link->data_bitrate,
                            wanted->data_bitrate, command);
     if (link->listen_only)
-        return board_error(error, "can %s: listens only, expected `listen-only off`: %s", link->name, command);
-    if (!link->up)
-        return board_error(error, "can %s: is down: %s", link->name, command);
+        return board_error(error, "can %s: listens only: %s", link->name, command);
     if (link->controller && link->restart_ms == 0 && !may_restart)
         return board_error(error, "can %s: no way back from bus-off, expected restart-ms or CAP_NET_ADMIN: %s",
                            link->name, command);

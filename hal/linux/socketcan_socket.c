@@ -22,6 +22,7 @@ static bool set(int can, int level, int option, int value)
     return setsockopt(can, level, option, &value, sizeof value) == 0;
 }
 
+/* The kernel forgets the first with the interface that the socket was bound to. */
 static bool set_filters(int can)
 {
     const struct can_filter no_remote = {.can_id = 0, .can_mask = CAN_RTR_FLAG};
@@ -54,9 +55,8 @@ hal_status_t socketcan_socket_open(int *made, const can_socketcan_settings_t *se
     if (can < 0)
         return board_error(error, "can %s: this kernel has no CAN sockets (%s): `modprobe can-raw`",
                            settings->interface, strerror(errno));
-    if (!set_filters(can) || !set(can, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, 1) ||
-        !set(can, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, settings->fd) || !set(can, SOL_SOCKET, SO_RXQ_OVFL, 1) ||
-        !set_stamps(can))
+    if (!set(can, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, 1) || !set(can, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, settings->fd) ||
+        !set(can, SOL_SOCKET, SO_RXQ_OVFL, 1) || !set_stamps(can))
         status =
             board_error(error, "can %s: the kernel refuses an option of its CAN sockets (%s), expected 4.11 or newer",
                         settings->interface, strerror(errno));
@@ -73,7 +73,7 @@ hal_status_t socketcan_socket_open(int *made, const can_socketcan_settings_t *se
 int socketcan_socket_bind(int socket, int32_t index)
 {
     const struct sockaddr_can address = {.can_family = AF_CAN, .can_ifindex = index};
-    return bind(socket, (const struct sockaddr *)&address, sizeof address) == 0 ? 0 : errno;
+    return set_filters(socket) && bind(socket, (const struct sockaddr *)&address, sizeof address) == 0 ? 0 : errno;
 }
 
 static int64_t ns_of(const struct timespec *time)

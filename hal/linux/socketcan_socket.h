@@ -21,7 +21,7 @@ typedef struct {
 } socketcan_heard_t;
 
 /**
- * Make a socket that hears all data frames, its own too, and the error frames that tell states; its queue holds 256.
+ * Make a socket whose queue holds 256 frames.
  *
  * @param[out] made  Written only when HAL_OK is returned. Not bound.
  * @return HAL_OK; HAL_IO with the reason in error.
@@ -29,7 +29,12 @@ typedef struct {
 MUST_CHECK hal_status_t socketcan_socket_open(int *made, const can_socketcan_settings_t *settings,
                                               char error[HAL_BOARD_ERROR_LENGTH]);
 
-/** Bind it to an interface, again when that has been gone. @return 0, or an errno. */
+/**
+ * Bind it to an interface, again when that has been gone: from now on it hears all data frames, its own too, and the
+ * error frames that tell states.
+ *
+ * @return 0, or an errno.
+ */
 int socketcan_socket_bind(int socket, int32_t index);
 
 /**
