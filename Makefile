@@ -134,7 +134,8 @@ $(ON_LINUX): LIBS := $(BUILD)/liblinux.a $(filter-out %/libsim.a,$(LIBS))
 $(ON_LINUX): LDLIBS += $(LINUX_LIBS)
 
 # What any HAL must do, with the devices of the virtual board.
-$(addprefix $(BUILD)/tests/board/virtual/,hal_can hal_gpio): $(BUILD)/tests/board/virtual/%: $(BUILD)/obj/tests/hal/test_%.c.o
+$(addprefix $(BUILD)/tests/board/virtual/check_,hal_can hal_gpio): $(BUILD)/tests/board/virtual/check_%: \
+    $(BUILD)/obj/tests/hal/test_%.c.o
 
 $(BUILD)/wallwarp: $(call objects,firmware/main.c board/$(BOARD)/board.c $(if $(filter linux,$(HAL)),$(LINUX_CXX))) $(LIBS)
 	$(call link,$(if $(filter linux,$(HAL)),-lcamera -lcamera-base -lstdc++))

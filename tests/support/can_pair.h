@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two controllers alone on one bus, for what every HAL's hal_can.h must do: simulated ones here, a Linux board's in
-// tests/board/virtual/hal_can.c.
+// tests/board/virtual/check_hal_can.c.
 #ifndef TESTS_SUPPORT_CAN_PAIR_H
 #define TESTS_SUPPORT_CAN_PAIR_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A board's lines and what is on their other ends, for what every HAL's hal_gpio.h must do: simulated ones here, a
-// Linux board's in tests/board/virtual/hal_gpio.c.
+// Linux board's in tests/board/virtual/check_hal_gpio.c.
 #ifndef TESTS_SUPPORT_GPIO_RIG_H
 #define TESTS_SUPPORT_GPIO_RIG_H
 

@@ -46,7 +46,7 @@ static int level(int offset)
 static void chips_have_names_and_labels(void **state)
 {
     (void)state;
-    static const char *const names[] = {"board-lines", "gpiochip1", "/dev/gpiochip1"};
+    static const char *const names[] = {"wallwarp", "gpiochip1", "/dev/gpiochip1"};
     for (int i = 0; i < 3; i++) {
         hal_gpio_t *gpio = open_lines(names[i]);
         assert_int_equal(hal_gpio_set(gpio, HAL_GPIO_LAMP, true), HAL_OK);
@@ -68,31 +68,29 @@ static void assert_refused(const hal_board_lines_t *lines, const char *line)
 static void held_lines_are_told_with_their_holder(void **state)
 {
     (void)state;
-    const hal_board_lines_t lines = lines_of("board-lines");
-    hal_gpio_t *gpio = open_lines("board-lines");
-    assert_refused(&lines, "gpio board-lines: line 3 (lamp) is held by \"wallwarp\": end that, or choose a free one of "
+    const hal_board_lines_t lines = lines_of("wallwarp");
+    hal_gpio_t *gpio = open_lines("wallwarp");
+    assert_refused(&lines, "gpio wallwarp: line 3 (lamp) is held by \"wallwarp\": end that, or choose a free one of "
                            "`gpioinfo`");
     gpio_gpiod_close(gpio);
-    assert_int_equal(
-        system("gpiomon board-lines 2 >/dev/null & echo $! >/tmp/holder; until gpioinfo board-lines | grep "
-               "-q gpiomon; do sleep 0.1; done"),
-        0);
-    assert_refused(&lines,
-                   "gpio board-lines: line 2 (genlock) is held by \"gpiomon\": end that, or choose a free one of "
-                   "`gpioinfo`");
-    assert_int_equal(
-        system("kill $(cat /tmp/holder); while gpioinfo board-lines | grep -q gpiomon; do sleep 0.1; done"), 0);
-    gpio_gpiod_close(open_lines("board-lines"));
+    assert_int_equal(system("gpiomon wallwarp 2 >/dev/null & echo $! >/tmp/holder; until gpioinfo wallwarp | grep "
+                            "-q gpiomon; do sleep 0.1; done"),
+                     0);
+    assert_refused(&lines, "gpio wallwarp: line 2 (genlock) is held by \"gpiomon\": end that, or choose a free one of "
+                           "`gpioinfo`");
+    assert_int_equal(system("kill $(cat /tmp/holder); while gpioinfo wallwarp | grep -q gpiomon; do sleep 0.1; done"),
+                     0);
+    gpio_gpiod_close(open_lines("wallwarp"));
 }
 
 static void wrong_lines_are_told(void **state)
 {
     (void)state;
-    hal_board_lines_t lines = lines_of("board-lines");
+    hal_board_lines_t lines = lines_of("wallwarp");
     lines.line[HAL_GPIO_STROBE] = 8;
-    assert_refused(&lines, "gpio board-lines: has no line 8 (strobe), expected one of `gpioinfo`");
+    assert_refused(&lines, "gpio wallwarp: has no line 8 (strobe), expected one of `gpioinfo`");
     lines.line[HAL_GPIO_STROBE] = -2;
-    assert_refused(&lines, "gpio board-lines: has no line -2 (strobe), expected one of `gpioinfo`");
+    assert_refused(&lines, "gpio wallwarp: has no line -2 (strobe), expected one of `gpioinfo`");
     lines.line[HAL_GPIO_STROBE] = HAL_BOARD_NO_LINE;
     char error[HAL_BOARD_ERROR_LENGTH];
     hal_gpio_t *gpio;
@@ -105,7 +103,7 @@ static void wrong_lines_are_told(void **state)
 static void all_is_low_at_the_end(void **state)
 {
     (void)state;
-    hal_gpio_t *gpio = open_lines("board-lines");
+    hal_gpio_t *gpio = open_lines("wallwarp");
     assert_int_equal(hal_gpio_set(gpio, HAL_GPIO_LED, true), HAL_OK);
     assert_int_equal(hal_gpio_set(gpio, HAL_GPIO_STROBE, true), HAL_OK);
     assert_int_equal(hal_gpio_set(gpio, HAL_GPIO_LAMP, true), HAL_OK);
@@ -124,7 +122,7 @@ static void the_lamp_is_low_after_a_crash(void **state)
     const pid_t child = fork();
     assert_true(child >= 0);
     if (child == 0) {
-        hal_gpio_t *gpio = open_lines("board-lines");
+        hal_gpio_t *gpio = open_lines("wallwarp");
         if (hal_gpio_set(gpio, HAL_GPIO_LAMP, true) != HAL_OK || write(ready[1], "r", 1) != 1)
             _exit(1);
         pause();

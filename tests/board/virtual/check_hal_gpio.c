@@ -10,11 +10,15 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "hal/linux/gpio_gpiod.h"
 #include "hal/linux/time_linux.h"
 
-static const hal_board_lines_t lines = {.chip = "board-lines", .line = {0, 1, 2, 3}};
+/* The kernel takes an edge in a thread of its own, and sees one where there are two before that runs. */
+enum { REST_US = 10000 };
+
+static const hal_board_lines_t lines = {.chip = "wallwarp", .line = {0, 1, 2, 3}};
 
 struct gpio_rig {
     hal_time_t *clock;
@@ -72,6 +76,7 @@ void gpio_rig_pulse(gpio_rig_t *rig)
         assert_true(fputs(pulls[i], pull) >= 0);
         assert_int_equal(fclose(pull), 0);
     }
+    usleep(REST_US);
 }
 
 int64_t gpio_rig_now_us(gpio_rig_t *rig)

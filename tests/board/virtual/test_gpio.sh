@@ -1,0 +1,17 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# Lines of the virtual board through hal/hal_gpio.h: driven and seen from their other ends.
+#
+# usage: tests/board/virtual/test_gpio.sh BUILD
+set -u
+. tests/board/virtual/vm.sh
+. tests/board/virtual/checks.sh
+
+vm_use || exit 1
+for program in check_hal_gpio check_gpio; do
+    said=$(vm_run -t 120 "/tree/$1/tests/board/virtual/$program")
+    status=$?
+    [ $status = 0 ] || echo "$said"
+    ok "$program" $status
+done
+ok_end
