@@ -4,10 +4,10 @@
 
 const board_table_t board_table = {
     .name = "qemu-virt",
-    .can = "can0",
-    .camera = "v4l2:/dev/video0",
+    .can = "can2",
+    .camera = "v4l2:vivid",
     .display = "Virtual-1",
-    .lines = {.chip = "wallwarp",
+    .lines = {.chip = "board-lines",
               .line = {[HAL_GPIO_LED] = 0, [HAL_GPIO_STROBE] = 1, [HAL_GPIO_GENLOCK] = 2, [HAL_GPIO_LAMP] = 3}},
     .watchdog = "/dev/watchdog0",
     .workers = {.count = 1, .first_core = 1, .priority = 40},

@@ -5,7 +5,7 @@
 const board_table_t board_table = {
     .name = "rpi5",
     .can = "can0",
-    .camera = "v4l2:/dev/video0",
+    .camera = "v4l2:/dev/video0+tc358743 11-000f",
     .display = "HDMI-A-1",
     .lines = {.chip = "pinctrl-rp1",
               .line = {[HAL_GPIO_LED] = 17, [HAL_GPIO_STROBE] = 27, [HAL_GPIO_GENLOCK] = 22, [HAL_GPIO_LAMP] = 23}},

@@ -21,17 +21,20 @@ static bool is_free(const kms_card_t *card)
 static void check_mode(check_t *check, const kms_card_t *card, const drmModeConnector *connector)
 {
     const hal_board_needs_t *n = check->needs;
-    char modes[CHECK_LINE_LENGTH / 2];
-    kms_mode_wanted_t wanted = {.width = 0};
+    const drmModeModeInfo *modes = connector->modes;
+    const int32_t count = connector->count_modes;
+    kms_mode_wanted_t wanted = {.width = 0}; /* no mode's size */
+    char text[CHECK_LINE_LENGTH / 2];
     if (n != NULL)
         wanted = (kms_mode_wanted_t){n->panel_width, n->panel_height, n->refresh_frames, n->refresh_seconds};
-    kms_mode_list(modes, sizeof modes, connector->modes, connector->count_modes, &wanted);
-    if (n != NULL && kms_mode_choose(connector->modes, connector->count_modes, &wanted) == KMS_NO_MODE)
+    kms_mode_list(text, sizeof text, modes, count, &wanted);
+    if (n != NULL && kms_mode_choose(modes, count, &wanted) == KMS_NO_MODE) {
         check_miss(check, "write a size and a refresh_hz that it offers into the room file",
                    "display: %s offers no %dx%d at %.2f Hz; it has %s", card->connector_name, (int)n->panel_width,
-                   (int)n->panel_height, (double)n->refresh_frames / n->refresh_seconds, modes);
-    else
-        check_found(check, "display: %s of %s (%s): %s", card->connector_name, card->path, card->driver, modes);
+                   (int)n->panel_height, (double)n->refresh_frames / n->refresh_seconds, text);
+        return;
+    }
+    check_found(check, "display: %s of %s (%s): %s", card->connector_name, card->path, card->driver, text);
 }
 
 void check_display(check_t *check)
