@@ -3,7 +3,7 @@
 #include "board/board_info.h"
 
 const board_info_t board_info = {
-    .machine = "NXP i.MX8M Plus EVK with a Linux of its maker or Debian 13; CAN FD is on the board",
+    .machine = "NXP i.MX8M Plus EVK with Debian 12 on a kernel of its maker; CAN FD is on the board",
     .header = "pin",
     .line_prefix = "GPIO5_IO",
     .wire =
@@ -22,6 +22,7 @@ const board_info_t board_info = {
                             "&uart3 { status = \"disabled\"; }; /* has the four pads of the lines */\n"},
             {"command line of the kernel, in the boot loader",
              "isolcpus=domain,managed_irq,1-3 rcu_nocbs=1-3 irqaffinity=0 consoleblank=0\n"},
-            {"a shell, once", "sudo apt install can-utils v4l-utils gpiod\n"},
+            {"a shell, once", "sudo apt install can-utils v4l-utils gpiod libcyaml1 libmbedcrypto7 libmnl0 libgpiod2 "
+                              "libdrm2 libcamera0.0.3\n"},
         },
 };
