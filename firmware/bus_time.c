@@ -160,17 +160,6 @@ int64_t bus_time_from_local(const bus_time_t *time, int64_t local_us)
     return time->known ? local_us + rounded_us(offset_q12_at(time, local_us)) : local_us;
 }
 
-/* Twice through the line: what is left is the rate's cube of the way, 10^-10 of it. */
-int64_t bus_time_to_local(const bus_time_t *time, int64_t bus_us)
-{
-    if (!time->known)
-        return bus_us;
-    int64_t local_us = bus_us - rounded_us(time->offset_q12);
-    for (int i = 0; i < 3; i++)
-        local_us = bus_us - rounded_us(offset_q12_at(time, local_us));
-    return local_us;
-}
-
 uint32_t bus_time_error_us(const bus_time_t *time, int64_t now_us)
 {
     if (!time->known || time->pairs < BUS_TIME_MEDIAN)

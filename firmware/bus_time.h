@@ -71,9 +71,6 @@ void bus_time_keep(bus_time_t *time, int64_t now_us);
  */
 int64_t bus_time_from_local(const bus_time_t *time, int64_t local_us);
 
-/** @return The board's clock at a moment of bus time; the inverse of bus_time_from_local() within 2 us. */
-int64_t bus_time_to_local(const bus_time_t *time, int64_t bus_us);
-
 /**
  * @return Within which bus_time_from_local(now_us) is right, us: six deviations of the line's end, and since the newest
  *         pair six of its rate and 1 ppm for what crystals do. UINT32_MAX while none is known, or a new one is being

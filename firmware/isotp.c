@@ -21,6 +21,11 @@ enum {
     HIGHEST_FINE_GAP = 0xF9
 };
 
+uint32_t isotp_faults_total(const isotp_faults_t *faults)
+{
+    return faults->sequence + faults->timeout + faults->overflow + faults->busy + faults->invalid;
+}
+
 void isotp_init(isotp_t *link, uint32_t receive_id, uint32_t send_id)
 {
     memset(link, 0, sizeof *link);

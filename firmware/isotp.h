@@ -47,6 +47,9 @@ typedef struct {
     int64_t gap_us;          /**< STmin of the other end */
 } isotp_t;
 
+/** @return All of them. */
+uint32_t isotp_faults_total(const isotp_faults_t *faults);
+
 /** Begin with nothing under way. */
 void isotp_init(isotp_t *link, uint32_t receive_id, uint32_t send_id);
 

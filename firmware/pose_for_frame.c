@@ -71,7 +71,7 @@ bool pose_for_frame(pose_for_frame_t *chosen, const pose_history_t *history, con
         return false;
     pose_t eye;
     chosen->drawn_known = find_drawn(&chosen->drawn, history, rule, picture);
-    chosen->eye = pose_predict(history, picture->shown_us, &eye);
+    (void)pose_predict(history, picture->shown_us, &eye); /* not none: the history has poses */
     chosen->camera = *camera;
     chosen->pose = chosen->drawn.pose;
     if (rule->content == POSE_FOR_FRAME_WALL ||

@@ -46,12 +46,11 @@ typedef struct {
 
 /** What to map the picture with. */
 typedef struct {
-    pose_t pose;        /**< for homography_from_pose(), together with */
-    camera_t camera;    /**< this; it is the picture's own but for content at a depth */
-    pose_at_t drawn;    /**< what the picture was drawn with; between two poses the older one's counter */
-    bool drawn_known;   /**< false: the rule could not be followed (no tag, or its pose is not in the history), and the
-                             next best one was */
-    pose_predict_t eye; /**< how the eye's place is known */
+    pose_t pose;      /**< for homography_from_pose(), together with */
+    camera_t camera;  /**< this; it is the picture's own but for content at a depth */
+    pose_at_t drawn;  /**< what the picture was drawn with; between two poses the older one's counter */
+    bool drawn_known; /**< false: the rule could not be followed (no tag, or its pose is not in the history), and the
+                           next best one was */
 } pose_for_frame_t;
 
 /**

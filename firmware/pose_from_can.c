@@ -70,7 +70,7 @@ static bool is_sane(const pose_t *pose)
 static void take_capture_time(can_poses_t *poses, const bus_master_t *time, uint64_t wrap_us)
 {
     poses->captured = false;
-    poses->capture_bus_us = poses->captured_us = 0;
+    poses->capture_bus_us = 0;
     if (time == NULL || time->origin != BUS_MASTER_TRACKER || !bus_master_knows(time, poses->received_us))
         return;
     const int64_t received_bus_us = bus_time_from_local(&time->time, poses->received_us);
@@ -80,7 +80,6 @@ static void take_capture_time(can_poses_t *poses, const bus_master_t *time, uint
         return;
     poses->captured = true;
     poses->capture_bus_us = capture_bus_us;
-    poses->captured_us = bus_time_to_local(&time->time, capture_bus_us);
 }
 
 static void remember(can_poses_t *poses, const bus_master_t *time, int counters)

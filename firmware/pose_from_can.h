@@ -55,8 +55,7 @@ typedef struct {
     can_pose_t newest;      /**< checked; its quality is not CAN_POSE_LOST; its quaternion only nearly of unit length */
     int64_t received_us;    /**< when its last bit was seen, on hal_time's clock */
     bool captured;          /**< its capture time is known: */
-    int64_t capture_bus_us; /**< in bus time, unwrapped, */
-    int64_t captured_us;    /**< and on hal_time's clock; else both are 0 */
+    int64_t capture_bus_us; /**< in bus time, unwrapped; else 0 */
     int counters;           /**< of its kind of message: counters go from 0 to one less */
     pose_history_t
         history; /**< the last second of them: when captured, or else received, in bus time as it was known */

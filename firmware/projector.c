@@ -5,6 +5,7 @@
 #include "firmware/bus_receive.h"
 #include "firmware/pattern_picture.h"
 #include "firmware/safe_picture.h"
+#include "firmware/state_led.h"
 #include "firmware/warp_steps.h"
 
 _Static_assert((int)ROOM_VIEWERS == (int)CAN_VIEWERS, "a room file may name every viewer");
@@ -44,6 +45,7 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
     if (!frame_choice_init(&projector->choice, &settings, projector->picture_us))
         projector->choice.rule.mode = POSE_FOR_FRAME_DELAY; /* room_load() refuses such a room */
     projector->report = (projector_report_t){.state = CAN_BOARD_WAITING};
+    projector->guessed = 0;
     stage_times_init(&projector->stage_times);
     projector->shown_us = projector->picture_us;
     projector->faults = (projector_faults_t){.camera = 0};
@@ -128,9 +130,9 @@ static bool draw_corrected(projector_t *p, const picture_t *panel)
     pose_for_frame_t chosen;
     if (!frame_choice_pose(&chosen, &p->choice, &p->poses, &p->camera))
         return false;
-    p->report.pose = p->poses.newest;
-    p->report.pose.pose = chosen.pose;
-    p->report.pose.counter = chosen.drawn.counter;
+    p->report.pose = chosen.pose;
+    p->report.pose_counter = chosen.drawn.counter;
+    p->guessed += !chosen.drawn_known;
     const picture_t picture = frame_choice_picture(&p->choice);
     if (!homography_from_pose(&homography, &chosen.camera, &p->wall, &chosen.pose) ||
         !warp_plan(&p->warp, p->kernels, &p->report.warp, &homography, panel, &picture))
@@ -256,17 +258,6 @@ static void drive(projector_t *p, hal_gpio_line_t line, bool high)
         p->faults.gpio++;
 }
 
-/* Steady: running. Steady with gaps: frozen, pattern. Slow blinking: waiting, holding or safe. Fast blinking: fault. */
-static bool led_level(can_board_state_t state, int64_t now_us)
-{
-    if (state == CAN_BOARD_RUNNING)
-        return true;
-    if (state == CAN_BOARD_FROZEN || state == CAN_BOARD_PATTERN)
-        return now_us / 250000 % 4 != 0;
-    const int64_t half_period_us = state == CAN_BOARD_FAULT ? 60000 : 250000;
-    return now_us / half_period_us % 2 == 0;
-}
-
 static void tell_life(projector_t *p, bool alive, int64_t now_us)
 {
     const bool showing = p->report.frame_number > 0;
@@ -304,7 +295,7 @@ void projector_step(projector_t *p)
     stage_times_add(&p->stage_times, &p->report.times);
     choose_method(p, deadline_us - now_us); /* what this one took -> the next picture's method */
     drive(p, HAL_GPIO_STROBE, false);
-    drive(p, HAL_GPIO_LED, led_level(p->report.state, now_us));
+    drive(p, HAL_GPIO_LED, state_led_level(p->report.state, now_us));
     drive(p, HAL_GPIO_LAMP, p->report.frame_number > 0); /* light only what is meant to be seen */
     telemetry_send(p, now_us);                           /* what was shown, and how the board does -> bus */
     event_watch_step(p, now_us);

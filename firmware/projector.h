@@ -44,7 +44,8 @@ typedef struct {
     can_board_state_t state;
     bool corrected;        /**< the presented picture is a warped one, not the safe picture */
     uint32_t frame_number; /**< pictures presented since start */
-    can_pose_t pose;       /**< that it was warped with */
+    pose_t pose;           /**< that it was warped with; */
+    uint8_t pose_counter;  /**< the tracker's, of the one that it was drawn with */
     warp_report_t warp;
     stage_step_t times;     /**< its stages, and the wait before it */
     can_step_t agreement;   /**< which content, picture and pose sample these are, and whether all boards have them */
@@ -72,6 +73,7 @@ struct projector {
     bool keeps_method;                /**< it stays at step 0 */
 
     projector_report_t report;
+    uint32_t guessed;          /**< pictures mapped with another pose than the rule asks for (pose_for_frame.h) */
     stage_times_t stage_times; /**< since the last report of them */
     int64_t shown_us;          /**< end of STAGE_SHOW, in the step before */
     projector_faults_t faults;

@@ -2,6 +2,7 @@
 // What a board says of itself, onto the bus.
 #include "firmware/telemetry.h"
 
+#include "firmware/can_counts.h"
 #include "firmware/can_e2e.h"
 #include "firmware/projector.h"
 
@@ -14,6 +15,7 @@ void telemetry_init(telemetry_t *telemetry, int64_t now_us)
         .quality_due_us = now_us,
         .time_due_us = now_us,
         .latency_due_us = now_us,
+        .counts_due_us = now_us,
         .stage_due_us = now_us + STAGES * CAN_STAGE_PERIOD_MS * 1000,
     };
 }
@@ -80,7 +82,7 @@ static void send_status(projector_t *p, int64_t now_us)
     const can_status_t status = {
         .node = (uint8_t)p->node,
         .counter = t->status_counter,
-        .pose_counter = p->report.pose.counter,
+        .pose_counter = p->report.pose_counter,
         .pose_age_ms = pose_age_ms(p, now_us),
         .step_q8 = (uint32_t)step_q16 >> 8,
         .warp_time_us = (uint32_t)p->report.times.us[STAGE_WARP],
@@ -197,6 +199,23 @@ static void send_latency(projector_t *p)
     send(p, can_latency_encode(&frame, &latency), &frame);
 }
 
+static void send_counts(projector_t *p)
+{
+    telemetry_t *t = &p->telemetry;
+    const can_counts_t counts = {
+        .node = (uint8_t)p->node,
+        .counter = t->counts_counter,
+        .tags_lost = p->choice.tags_lost,
+        .guessed = p->guessed,
+        .leaders = p->choice.clock.changes,
+        .epochs_missed = p->choice.clock.missed,
+        .command_faults = isotp_faults_total(&p->commands.link.faults),
+    };
+    t->counts_counter = (uint8_t)((t->counts_counter + 1) % CAN_E2E_P01_COUNTERS);
+    hal_can_frame_t frame;
+    send(p, can_counts_encode(&frame, &counts), &frame);
+}
+
 void telemetry_send(projector_t *projector, int64_t now_us)
 {
     telemetry_t *t = &projector->telemetry;
@@ -223,6 +242,10 @@ void telemetry_send(projector_t *projector, int64_t now_us)
     if (now_us >= t->latency_due_us) {
         t->latency_due_us = now_us + CAN_LATENCY_PERIOD_MS * 1000;
         send_latency(projector);
+    }
+    if (now_us >= t->counts_due_us) {
+        t->counts_due_us = now_us + CAN_COUNTS_PERIOD_MS * 1000;
+        send_counts(projector);
     }
     if (now_us >= t->heartbeat_due_us) {
         t->heartbeat_due_us = now_us + CAN_HEARTBEAT_PERIOD_MS * 1000;

@@ -55,7 +55,7 @@ void run_files_add(run_files_t *files, const run_record_t *record, const room_t 
         const projector_report_t *report = &wall->report;
         char pose[RUN_POSE_TEXT_LENGTH] = "";
         if (report->corrected)
-            run_pose_text(pose, &report->pose.pose);
+            run_pose_text(pose, &report->pose);
         fprintf(files->frames, "%" PRId32 ",", n);
         print_seconds(files->frames, record->frame[n].time_us);
         fprintf(files->frames, ",%s,%s,%s,%.4f,%.4f,%" PRId32 "\n", room->board[i].name, can_board_state_name(report->state),

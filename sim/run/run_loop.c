@@ -84,7 +84,7 @@ static bool make_step(run_loop_t *loop, int64_t now_us)
         wall->step_time_us = sim_world_step_time_us(loop->world, i);
         if (wall->report.corrected && !frame->seen) {
             frame->seen = true;
-            frame->eye = wall->report.pose.pose;
+            frame->eye = wall->report.pose;
         }
     }
     run_files_add(loop->files, record, loop->room);

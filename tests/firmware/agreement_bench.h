@@ -33,19 +33,27 @@ typedef struct {
     can_step_t content[CONTENTS];
 } bench_t;
 
-/* display_ms: of each board's projector; NULL: none takes any time. */
-static inline void load_room(room_t *room, const double display_ms[BOARDS])
+/* What differs from a room of CAN FD whose projectors take no time. */
+typedef struct {
+    const double *display_ms; /* of each board's projector; NULL: none */
+    bool classic;
+} bench_settings_t;
+
+static inline void load_room(room_t *room, const bench_settings_t *settings)
 {
     scratch_t scratch;
     char path[SCRATCH_PATH_LENGTH], text[TEXT_LENGTH], error[ROOM_MESSAGE_LENGTH] = "";
     int length = snprintf(text, sizeof text,
-                          "camera: {width: 96, height: 54, focal_px: [60, 60], principal_px: [48, 27]}\nboards:\n");
+                          "camera: {width: 96, height: 54, focal_px: [60, 60], principal_px: [48, 27]}\n"
+                          "can: {fd: %s}\nboards:\n",
+                          settings->classic ? "false" : "true");
     for (int i = 1; i <= BOARDS; i++)
         length += snprintf(text + length, sizeof text - (size_t)length,
                            "  - name: wall%d\n    node: %d\n    projector: {width: 16, height: 9}\n"
                            "    display_delay_ms: %.3f\n"
                            "    wall: {corners_mm: [[-2000, -1125, %d], [2000, -1125, %d], [2000, 1125, %d], null]}\n",
-                           i, i, display_ms == NULL ? 0 : display_ms[i - 1], 1000 * i, 1000 * i, 1000 * i);
+                           i, i, settings->display_ms == NULL ? 0 : settings->display_ms[i - 1], 1000 * i, 1000 * i,
+                           1000 * i);
     scratch_open(&scratch);
     scratch_path(&scratch, "room.yaml", path);
     scratch_write(path, text, strlen(text));
@@ -67,11 +75,11 @@ static inline void make_walk(pose_list_t *list, int seconds)
         };
 }
 
-static inline void bench_open_with(bench_t *b, int seconds, const double display_ms[BOARDS])
+static inline void bench_open_with(bench_t *b, int seconds, const bench_settings_t *settings)
 {
     char error[FILE_ERROR_LENGTH] = "";
     memset(b, 0, sizeof *b);
-    load_room(&b->room, display_ms);
+    load_room(&b->room, settings);
     make_walk(&b->list, seconds);
     b->video = video_open("pattern", 96, 54, error);
     assert_string_equal(error, "");
@@ -85,13 +93,13 @@ static inline void bench_open_with(bench_t *b, int seconds, const double display
     b->world = sim_world_create(&config, error);
     assert_string_equal(error, "");
     const pose_sender_config_t sender = {
-        .bus = sim_world_bus(b->world), .list = &b->list, .fd = true, .start_us = 1000, .sync = true};
+        .bus = sim_world_bus(b->world), .list = &b->list, .fd = !settings->classic, .start_us = 1000, .sync = true};
     assert_true(pose_sender_open(&b->sender, &sender));
 }
 
 static inline void bench_open(bench_t *b, int seconds)
 {
-    bench_open_with(b, seconds, NULL);
+    bench_open_with(b, seconds, &(bench_settings_t){.display_ms = NULL});
 }
 
 static inline void bench_close(bench_t *b)

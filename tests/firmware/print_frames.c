@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "firmware/can_counts.h"
 #include "firmware/can_frame_clock.h"
 #include "firmware/can_latency.h"
 #include "firmware/can_protocol.h"
@@ -217,6 +218,22 @@ static void print_latencies(void)
     }
 }
 
+static void print_counts(void)
+{
+    hal_can_frame_t frame;
+    const can_counts_t counts = {.node = 1,
+                                 .counter = 12,
+                                 .tags_lost = 4096 + 3000,
+                                 .guessed = 2345,
+                                 .leaders = 201,
+                                 .epochs_missed = 256 + 99,
+                                 .command_faults = 4000};
+    check(can_counts_encode(&frame, &counts));
+    print_frame("Counts", &frame, CAN_COUNTS_PERIOD_MS);
+    printf("signal CountsCounter 12\nsignal CountsTagsLost 3000\nsignal CountsGuessed 2345\nsignal CountsLeaders 201\n"
+           "signal CountsEpochsMissed 99\nsignal CountsCommandFaults 4000\n");
+}
+
 /* One heartbeat for each fault flag, so that no two flags can be confused. */
 static void print_heartbeats(void)
 {
@@ -259,6 +276,7 @@ int main(void)
     print_times();
     print_frame_clock();
     print_latencies();
+    print_counts();
     print_heartbeats();
     return 0;
 }

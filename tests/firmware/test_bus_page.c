@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "firmware/bus_time.h"
+#include "firmware/can_counts.h"
 #include "firmware/can_frame_clock.h"
 #include "firmware/can_latency.h"
 #include "firmware/pose_from_can.h"
@@ -213,29 +214,59 @@ static void assert_page_has(const char *text)
         fail_msg("\"%s\" is not in %s", text, page_path);
 }
 
-static void assert_load(double per_s, double least_s, double most_s)
+/* What a row of the table of loads is about. */
+typedef struct {
+    const char *name;
+    double classic_per_s, fd_per_s; /* frames */
+} row_t;
+
+/* "| `Status` | 10 | 0.22 to 0.27 % | 0.11 to 0.14 % |": the share of a second, with the least and the most stuffing.
+ */
+static void assert_row(const row_t *row)
 {
-    char text[64];
-    snprintf(text, sizeof text, "%.2f to %.2f %%", per_s * least_s * 100, per_s * most_s * 100);
+    char text[LINE_LENGTH];
+    double percent[4];
+    for (int i = 0; i < 4; i++) {
+        const bool most = i % 2 == 1;
+        const double bitrate = i < 2 ? 500000 : 1000000, data_bitrate = i < 2 ? 2000000 : 5000000;
+        percent[i] = 100 * (row->classic_per_s * (most ? 135 : 111) / bitrate +
+                            row->fd_per_s * ((most ? 31 : 29) / bitrate + (most ? 359 : 294) / data_bitrate));
+    }
+    snprintf(text, sizeof text, "%s | %.0f | %.2f to %.2f %% | %.2f to %.2f %% |", row->name,
+             row->classic_per_s + row->fd_per_s, percent[0], percent[1], percent[2], percent[3]);
     assert_page_has(text);
+}
+
+static double per_s(int period_ms)
+{
+    return 1000.0 / period_ms;
 }
 
 static void test_loads_are_the_sums(void **state)
 {
     (void)state;
-    const double reports = 1000.0 / CAN_STATUS_PERIOD_MS + 1000.0 / CAN_STAGE_PERIOD_MS +
-                           1000.0 / CAN_QUALITY_PERIOD_MS + 1000.0 / CAN_TIME_PERIOD_MS +
-                           1000.0 / CAN_HEARTBEAT_PERIOD_MS + 1000.0 / CAN_STEP_PERIOD_MS +
-                           1000.0 / CAN_LATENCY_PERIOD_MS;
-    assert_true(reports == 29);
-    for (double bitrate = 500000, data_bitrate = 2000000; bitrate <= 1000000; bitrate *= 2, data_bitrate = 5000000) {
-        const double least_s = 111 / bitrate, most_s = 135 / bitrate;
-        assert_load(POSES_PER_S, 3 * least_s, 3 * most_s);
-        assert_load(POSES_PER_S, 29 / bitrate + 294 / data_bitrate, 31 / bitrate + 359 / data_bitrate);
-        assert_load(1000.0 / CAN_SYNC_PERIOD_MS, 2 * least_s, 2 * most_s);
-        assert_load(reports, least_s, most_s);
-        assert_load(1000.0 / CAN_FRAME_CLOCK_PERIOD_MS, least_s, most_s);
-    }
+    const double step = per_s(CAN_STEP_PERIOD_MS), status = per_s(CAN_STATUS_PERIOD_MS),
+                 stage = per_s(CAN_STAGE_PERIOD_MS), heartbeat = per_s(CAN_HEARTBEAT_PERIOD_MS),
+                 seldom = per_s(CAN_QUALITY_PERIOD_MS) + per_s(CAN_TIME_PERIOD_MS) + per_s(CAN_LATENCY_PERIOD_MS) +
+                          per_s(CAN_COUNTS_PERIOD_MS),
+                 reports = step + status + stage + heartbeat + seldom, sync = 2 * per_s(CAN_SYNC_PERIOD_MS),
+                 clock = per_s(CAN_FRAME_CLOCK_PERIOD_MS), room = sync + clock + 8 * reports;
+    const row_t rows[] = {
+        {"| `Pose`", 0, POSES_PER_S},
+        {"| `PoseSetA`, `B`, `C`", 3 * POSES_PER_S, 0},
+        {"| `Sync`, `FollowUp`", sync, 0},
+        {"twice that while a change is announced", clock, 0},
+        {"| `Step`", step, 0},
+        {"| `Status`", status, 0},
+        {"| `Stage`", stage, 0},
+        {"| `Heartbeat`", heartbeat, 0},
+        {"| `Quality`, `Time`, `Latency`, `Counts`, together", seldom, 0},
+        {"| all reports of a board", reports, 0},
+        {"| a room of 8 boards, a viewer with `Pose`", room, POSES_PER_S},
+        {"| the same with sets", room + 3 * POSES_PER_S, 0},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        assert_row(&rows[i]);
 }
 
 static void test_check_values_of_the_crcs(void **state)

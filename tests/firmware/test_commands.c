@@ -142,7 +142,7 @@ static void check_as_from_a_room_file(const char *name)
     homography_t homography;
     copy_shown(found);
     warp_init(&warp, *warp_method_from_name(name), false, border);
-    assert_true(homography_from_pose(&homography, &projector()->camera, &projector()->wall, &report()->pose.pose));
+    assert_true(homography_from_pose(&homography, &projector()->camera, &projector()->wall, &report()->pose));
     assert_true(warp_plan(&warp, projector()->kernels, NULL, &homography, &picture, &from));
     for (int step = WARP_MEASURE; step <= WARP_DRAW; step++)
         if (warp_needs(&warp, (warp_step_t)step))

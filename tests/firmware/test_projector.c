@@ -29,7 +29,7 @@ static void test_loss_of_poses_is_held_then_made_safe_then_ended_at_once(void **
     (void)state;
     start_running();
     bench.tracking = false;
-    const uint8_t last = report()->pose.counter;
+    const uint8_t last = report()->pose_counter;
     const int64_t received_us = projector()->poses.received_us;
     bool held = false, safe = false;
     for (int i = 0; i < 2 * ROOM_BENCH_HZ; i++) {
@@ -41,7 +41,7 @@ static void test_loss_of_poses_is_held_then_made_safe_then_ended_at_once(void **
         assert_int_equal(report()->state, expected);
         assert_int_equal(report()->corrected, expected != CAN_BOARD_SAFE);
         assert_int_equal(room_bench_is_safe_picture(&bench, 0), expected == CAN_BOARD_SAFE);
-        assert_int_equal(report()->pose.counter, last);
+        assert_int_equal(report()->pose_counter, last);
         held |= expected == CAN_BOARD_HOLDING;
         safe |= expected == CAN_BOARD_SAFE;
     }

@@ -84,13 +84,13 @@ static void test_corrupted_poses_are_counted_and_never_used(void **state)
 {
     (void)state;
     start_running();
-    const can_pose_t last = report()->pose;
+    const pose_t last = report()->pose;
     const sim_bus_fail_t all = {.ppm = 1000000, .only = devices()->can};
     const uint32_t before = projector()->can_faults.crc;
     sim_bus_fail(sim_world_bus(bench.world), SIM_BUS_CORRUPT, all);
     room_bench_run(&bench, 500);
     assert_int_equal(report()->state, CAN_BOARD_HOLDING);
-    assert_memory_equal(&report()->pose.pose, &last.pose, sizeof last.pose);
+    assert_memory_equal(&report()->pose, &last, sizeof last);
     assert_int_equal(projector()->can_faults.crc, before + 30);
     assert_int_equal(room_bench_report(&bench, 1)->state, CAN_BOARD_RUNNING);
     room_bench_run(&bench, 100);

@@ -29,7 +29,7 @@ static void make_expected(uint8_t *bytes, picture_format_t format)
     homography_t homography;
     warp_init(&warp, *bench.room.board[0].method, bench.room.board[0].step_all, bench.room.board[0].border);
     assert_true(
-        homography_from_pose(&homography, &bench.room.camera, &bench.room.board[0].wall, &board_zero.report.pose.pose));
+        homography_from_pose(&homography, &bench.room.camera, &bench.room.board[0].wall, &board_zero.report.pose));
     assert_true(
         warp_plan(&warp, &warp_kernels_scalar, NULL, &homography, &panel, &board_zero.choice.now.frame.picture));
     warp_steps_run(&warp, NULL);

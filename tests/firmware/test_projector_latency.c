@@ -120,7 +120,7 @@ static void test_equal_on_request(void **state)
     for (int n = 0; n < 2; n++) {
         static bench_t b;
         operator_t operator;
-        bench_open_with(&b, START_S + 60, display_ms[n]);
+        bench_open_with(&b, START_S + 60, &(bench_settings_t){.display_ms = display_ms[n]});
         operator_open(&operator, & b);
         run(&b, START_S * HZ);
         figures_t found = watch(&b, display_ms[n]);
@@ -154,7 +154,7 @@ static void test_requests_longer_than_needed(void **state)
     static const double display_ms[BOARDS] = {0, 16.5, 33.5, 0, 0, 16.5, 33.5, 0};
     static bench_t b;
     operator_t operator;
-    bench_open_with(&b, START_S + 60, display_ms);
+    bench_open_with(&b, START_S + 60, &(bench_settings_t){.display_ms = display_ms});
     operator_open(&operator, & b);
     run(&b, START_S * HZ);
     for (int ms = 61; ms <= 81; ms += 20) { /* the least is 60.5 */
@@ -182,7 +182,7 @@ static void test_too_slow_a_projector(void **state)
     static const double display_ms[BOARDS] = {0, 0, 0, 0, 0, 100, 0, 0};
     static bench_t b;
     operator_t operator;
-    bench_open_with(&b, START_S + 20, display_ms);
+    bench_open_with(&b, START_S + 20, &(bench_settings_t){.display_ms = display_ms});
     operator_open(&operator, & b);
     run(&b, START_S * HZ);
     assert_int_equal(want(&operator, & b, 1, COMMAND_IMPOSSIBLE), 8);
@@ -226,7 +226,7 @@ static void test_faults_while_equal(void **state)
     static const double display_ms[BOARDS] = {33.5, 16.5, 0, 0, 0, 16.5, 33.5, 0};
     static bench_t b;
     operator_t operator;
-    bench_open_with(&b, START_S + 90, display_ms);
+    bench_open_with(&b, START_S + 90, &(bench_settings_t){.display_ms = display_ms});
     operator_open(&operator, & b);
     run(&b, START_S * HZ);
     b.shown = b.in_step = 0;

@@ -116,7 +116,7 @@ static double swim_deg(const scratch_t *scratch, const char *mode)
             continue; /* bus time is there by then */
         assert_true(projector->report.corrected);
         const int64_t drawn = drawn_pose(projector->choice.now.capture_us);
-        const double off = yaw_of(&projector->report.pose.pose) - yaw_of(&list.entry[drawn].pose);
+        const double off = yaw_of(&projector->report.pose) - yaw_of(&list.entry[drawn].pose);
         if (fabs(off) < 45) /* not across the jump back */
             worst = fmax(worst, fabs(off));
     }

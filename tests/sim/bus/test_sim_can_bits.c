@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frame lengths: by hand, within the known bounds, and against a frame builder written only for this test.
+// Frame lengths: by hand, within the known bounds, and against a frame builder written only for tests.
 #include "sim/bus/sim_can_bits.h"
 
 #include <setjmp.h>
@@ -11,9 +11,9 @@
 
 #include <cmocka.h>
 
-enum { RANDOM_FRAMES = 20000, LONGEST_STREAM = 1024 };
+#include "tests/support/can_bits_oracle.h"
 
-static const uint8_t fd_lengths[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};
+enum { RANDOM_FRAMES = 20000 };
 
 static uint64_t next_random(uint64_t *state)
 {
@@ -29,95 +29,13 @@ static hal_can_frame_t random_frame(uint64_t *state)
     hal_can_frame_t frame = {.extended = next_random(state) % 2, .fd = next_random(state) % 2};
     frame.bit_rate_switch = frame.fd && next_random(state) % 2;
     frame.id = (uint32_t)next_random(state) & (frame.extended ? 0x1FFFFFFFU : 0x7FFU);
-    frame.length = fd_lengths[next_random(state) % (frame.fd ? 16 : 9)];
+    frame.length = can_bits_lengths[next_random(state) % (frame.fd ? 16 : 9)];
     const unsigned style = next_random(state) % 4;
     if (style == 0)
         frame.id = 0;
     for (int i = 0; i < frame.length; i++)
         frame.data[i] = style < 2 ? (uint8_t)(next_random(state) % 2 * 0xFF) : (uint8_t)next_random(state);
     return frame;
-}
-
-/* Bits as characters, so that the oracle shares nothing with the code under test. */
-typedef struct {
-    char bit[LONGEST_STREAM];
-    int count;
-} text_t;
-
-static void put(text_t *text, uint32_t value, int count)
-{
-    for (int i = count - 1; i >= 0; i--)
-        text->bit[text->count++] = (value >> i & 1U) != 0 ? '1' : '0';
-}
-
-/* CRC-15 by long division of the whole stream. */
-static void put_crc15(text_t *text)
-{
-    static const char divisor[] = "1100010110011001";
-    text_t rest = *text;
-    put(&rest, 0, 15);
-    for (int i = 0; i < text->count; i++) {
-        if (rest.bit[i] == '0')
-            continue;
-        for (int j = 0; j < 16; j++)
-            rest.bit[i + j] = rest.bit[i + j] == divisor[j] ? '0' : '1';
-    }
-    memcpy(text->bit + text->count, rest.bit + text->count, 15);
-    text->count += 15;
-}
-
-/* Stuff bits in text[0..count), each told by the index of the bit it follows; returns how many follow [begin, end). */
-static int stuff_bits(const text_t *text, int count, int begin, int end)
-{
-    int found = 0;
-    text_t sent = {.count = 0};
-    for (int i = 0; i < count; i++) {
-        sent.bit[sent.count++] = text->bit[i];
-        if (sent.count < 5)
-            continue;
-        const char *tail = sent.bit + sent.count - 5;
-        if (memcmp(tail, "00000", 5) != 0 && memcmp(tail, "11111", 5) != 0)
-            continue;
-        sent.bit[sent.count++] = text->bit[i] == '0' ? '1' : '0';
-        found += i >= begin && i < end;
-    }
-    return found;
-}
-
-static sim_can_bits_t oracle_bits(const hal_can_frame_t *frame)
-{
-    uint32_t code = 0;
-    while (fd_lengths[code] != frame->length)
-        code++;
-    text_t text = {.count = 0};
-    put(&text, 0, 1);
-    put(&text, frame->extended ? frame->id >> 18 : frame->id, 11);
-    if (frame->extended) {
-        put(&text, 3, 2);
-        put(&text, frame->id & 0x3FFFF, 18);
-    }
-    put(&text, 0, frame->extended ? 1 : 2); /* RTR or RRS; IDE of a standard frame */
-    if (frame->fd)
-        put(&text, frame->bit_rate_switch ? 5 : 4, 3);
-    else
-        put(&text, 0, frame->extended ? 2 : 1);
-    const int switched_at = text.count;
-    put(&text, code, frame->fd ? 5 : 4);
-    for (int i = 0; i < frame->length; i++)
-        put(&text, frame->data[i], 8);
-    const int end_of_frame = 1 + 1 + 7 + 3;
-    if (!frame->fd) {
-        put_crc15(&text);
-        const int stuffed = stuff_bits(&text, text.count, 0, text.count);
-        return (sim_can_bits_t){.arbitration = text.count + stuffed + 1 + end_of_frame};
-    }
-    const int crc_field = frame->length > 16 ? 4 + 21 + 7 : 4 + 17 + 6;
-    const int before = switched_at + stuff_bits(&text, text.count, 0, switched_at);
-    const int stuffed = stuff_bits(&text, text.count, switched_at, text.count - 1);
-    const int after = text.count - switched_at + stuffed + crc_field + 1;
-    if (frame->bit_rate_switch)
-        return (sim_can_bits_t){before + end_of_frame, after};
-    return (sim_can_bits_t){.arbitration = before + after + end_of_frame};
 }
 
 static void assert_bits(const hal_can_frame_t *frame, int arbitration, int data)
@@ -200,7 +118,7 @@ static void test_random_frames_are_as_built_by_the_oracle_and_within_the_formula
         uint64_t random = seed;
         for (int i = 0; i < RANDOM_FRAMES; i++) {
             const hal_can_frame_t frame = random_frame(&random);
-            const sim_can_bits_t bits = sim_can_bits(&frame), expected = oracle_bits(&frame);
+            const sim_can_bits_t bits = sim_can_bits(&frame), expected = can_bits_oracle(&frame);
             if (bits.arbitration != expected.arbitration || bits.data != expected.data)
                 fail_msg("seed %llu frame %d (id %x, fd %d, %d bytes): %d + %d bits, expected %d + %d",
                          (unsigned long long)seed, i, (unsigned)frame.id, frame.fd, frame.length, bits.arbitration,

@@ -69,7 +69,8 @@ static void listen_to(const char *arguments, int parts, double mm, double compon
         const int64_t early_us = board.poses.received_us - (int64_t)board.poses.newest.capture_time_us;
         assert_in_range(early_us, 0, 99); /* sets carry 100 us */
         if (board.poses.captured) {
-            assert_in_range(board.poses.received_us - board.poses.captured_us, 0, 101);
+            const int64_t received_us = bus_time_from_local(&board.time.time, board.poses.received_us);
+            assert_in_range(received_us - board.poses.capture_bus_us, 0, 101);
             captured++;
         }
         board.poses.any = board.poses.captured = false;

@@ -61,8 +61,8 @@ static uint64_t play(bool fd)
         for (int board = 0; board < ROOM_BENCH_BOARDS; board++) {
             const projector_report_t *report = &sim_world_projector(world, board)->report;
             assert_int_equal(report->state, CAN_BOARD_RUNNING);
-            assert_memory_equal(report->pose.pose.eye_nm, entries[n].pose.eye_nm, sizeof entries[n].pose.eye_nm);
-            assert_int_equal(report->pose.counter, n % (fd ? 256 : 15));
+            assert_memory_equal(report->pose.eye_nm, entries[n].pose.eye_nm, sizeof entries[n].pose.eye_nm);
+            assert_int_equal(report->pose_counter, n % (fd ? 256 : 15));
             hash = hash_of(hash, sim_world_shown(world, board, sim_rate_time_us(&refresh, n + 1)));
         }
     }
@@ -70,7 +70,7 @@ static uint64_t play(bool fd)
         const can_poses_t *poses = &sim_world_projector(world, board)->poses;
         const int64_t sent_us = entries[POSES - 1].time_us - entries[0].time_us;
         assert_true(poses->captured);
-        assert_in_range(poses->captured_us, sent_us - 52, sent_us + 52);
+        assert_in_range(poses->capture_bus_us, sent_us - 52, sent_us + 52);
     }
     assert_int_equal(sender.sent, POSES);
     assert_int_equal(sender.unsent, 0);
