@@ -3,11 +3,12 @@
 #include "sim/pose/bus_check.h"
 
 #include <inttypes.h>
-#include <stdarg.h>
 #include <stdbool.h>
 #include <string.h>
 
 #include "firmware/projector.h"
+#include "sim/pose/bus_check_latency.h"
+#include "sim/pose/bus_judge.h"
 #include "sim/pose/event_text.h"
 
 enum { LEAST_POSES_PER_S = 20, MOST_LOAD_PPM = 700000, US_PER_S = 1000000 };
@@ -15,32 +16,14 @@ enum { MOST_TIME_ERROR_US = 1000 };
 enum { DELAY_STEP_US = 500, MOST_DELAY_US = 50000 /**< that a room file may have */ };
 enum { HEARTBEAT_GAP_US = 3 * CAN_HEARTBEAT_PERIOD_MS * 1000 / 2 };
 
-/* Where the judgement goes, and how many were bad. */
-typedef struct {
-    FILE *file;
-    int bad;
-} judge_t;
-
-static void say(judge_t *judge, bool good, const char *format, ...) __attribute__((format(printf, 3, 4)));
-static void say(judge_t *judge, bool good, const char *format, ...)
-{
-    va_list values;
-    va_start(values, format);
-    fputs(good ? "ok   " : "BAD  ", judge->file);
-    vfprintf(judge->file, format, values);
-    fputc('\n', judge->file);
-    va_end(values);
-    judge->bad += good ? 0 : 1;
-}
-
 /* A count that should be 0: said only when it is not. */
-static void say_count(judge_t *judge, int viewer, uint32_t count, const char *what)
+static void say_count(bus_judge_t *judge, int viewer, uint32_t count, const char *what)
 {
     if (count > 0)
-        say(judge, false, "viewer %d: %" PRIu32 " %s", viewer, count, what);
+        bus_judge_say(judge, false, "viewer %d: %" PRIu32 " %s", viewer, count, what);
 }
 
-static void check_faults(judge_t *judge, int number, const can_faults_t *faults)
+static void check_faults(bus_judge_t *judge, int number, const can_faults_t *faults)
 {
     say_count(judge, number, faults->counter_lost, "poses lost on the way: is the bus overloaded or its wiring bad?");
     say_count(judge, number, faults->crc, "frames with a wrong CRC: see wallwarp.dbc for polynomial and data ids");
@@ -57,51 +40,55 @@ static void check_faults(judge_t *judge, int number, const can_faults_t *faults)
 }
 
 /* Is every pose at the boards when they choose it? Its value is rounded up to half a millisecond. */
-static void check_delay(judge_t *judge, int number, const bus_watch_viewer_t *viewer, int64_t pose_delay_us)
+static void check_delay(bus_judge_t *judge, int number, const bus_watch_viewer_t *viewer, int64_t pose_delay_us)
 {
     const int64_t needed_us = viewer->delay_most_us + (int64_t)(bus_watch_mean_us(&viewer->poses) / 4);
     const int64_t value_us = (needed_us + DELAY_STEP_US - 1) / DELAY_STEP_US * DELAY_STEP_US;
     if (pose_delay_us == BUS_CHECK_NO_DELAY)
         return;
     if (viewer->delays == 0)
-        say(judge, false, "viewer %d: how late its poses come is not known: it takes a tracker's bus time, and %s",
-            number, "4 to 20 s of it; see --seconds");
+        bus_judge_say(judge, false,
+                      "viewer %d: how late its poses come is not known: it takes a tracker's bus time, and %s", number,
+                      "4 to 20 s of it; see --seconds");
     else if (needed_us > MOST_DELAY_US)
-        say(judge, false, "viewer %d: poses come up to %.1f ms after their capture, which no pose_delay_ms allows for",
-            number, (double)viewer->delay_most_us / 1e3);
+        bus_judge_say(judge, false,
+                      "viewer %d: poses come up to %.1f ms after their capture, which no pose_delay_ms allows for",
+                      number, (double)viewer->delay_most_us / 1e3);
     else if (needed_us > pose_delay_us)
-        say(judge, false,
+        bus_judge_say(
+            judge, false,
             "viewer %d: poses come up to %.1f ms after their capture; set the room's pose_delay_ms to %.1f, not %.1f",
             number, (double)viewer->delay_most_us / 1e3, (double)value_us / 1e3, (double)pose_delay_us / 1e3);
 }
 
-static void say_good_viewer(judge_t *judge, int number, const bus_watch_viewer_t *viewer)
+static void say_good_viewer(bus_judge_t *judge, int number, const bus_watch_viewer_t *viewer)
 {
     const double rate = US_PER_S / bus_watch_mean_us(&viewer->poses);
     const double jitter_ms = bus_watch_jitter_us(&viewer->poses) / 1e3;
     if (viewer->delays == 0)
-        say(judge, true, "viewer %d: %.1f poses a second, jitter %.3f ms, delay within %.3f ms", number, rate,
-            jitter_ms, (double)(viewer->most_us - viewer->least_us) / 1e3);
+        bus_judge_say(judge, true, "viewer %d: %.1f poses a second, jitter %.3f ms, delay within %.3f ms", number, rate,
+                      jitter_ms, (double)(viewer->most_us - viewer->least_us) / 1e3);
     else
-        say(judge, true, "viewer %d: %.1f poses a second, jitter %.3f ms, delay %.1f ms, at most %.1f", number, rate,
-            jitter_ms, (double)viewer->delay_sum_us / (double)viewer->delays / 1e3,
-            (double)viewer->delay_most_us / 1e3);
+        bus_judge_say(judge, true, "viewer %d: %.1f poses a second, jitter %.3f ms, delay %.1f ms, at most %.1f",
+                      number, rate, jitter_ms, (double)viewer->delay_sum_us / (double)viewer->delays / 1e3,
+                      (double)viewer->delay_most_us / 1e3);
 }
 
-static void check_viewer(judge_t *judge, int number, const bus_watch_viewer_t *viewer, int64_t pose_delay_us)
+static void check_viewer(bus_judge_t *judge, int number, const bus_watch_viewer_t *viewer, int64_t pose_delay_us)
 {
     const int before = judge->bad;
     const double mean_us = bus_watch_mean_us(&viewer->poses), rate = mean_us > 0 ? US_PER_S / mean_us : 0;
     if (viewer->fd && viewer->set)
-        say(judge, false, "viewer %d: comes as FD frames and as classic sets; send one of them", number);
+        bus_judge_say(judge, false, "viewer %d: comes as FD frames and as classic sets; send one of them", number);
     if (rate < LEAST_POSES_PER_S)
-        say(judge, false, "viewer %d: %.1f poses a second; send at least %d", number, rate, LEAST_POSES_PER_S);
+        bus_judge_say(judge, false, "viewer %d: %.1f poses a second; send at least %d", number, rate,
+                      LEAST_POSES_PER_S);
     if (viewer->poses.longest_us > PROJECTOR_HOLD_AFTER_US)
-        say(judge, false, "viewer %d: a gap of %" PRId64 " ms; boards hold the last pose after %d ms", number,
-            viewer->poses.longest_us / 1000, PROJECTOR_HOLD_AFTER_US / 1000);
+        bus_judge_say(judge, false, "viewer %d: a gap of %" PRId64 " ms; boards hold the last pose after %d ms", number,
+                      viewer->poses.longest_us / 1000, PROJECTOR_HOLD_AFTER_US / 1000);
     if (viewer->captured_back > 0)
-        say(judge, false, "viewer %d: capture times went back %" PRId64 " times; they count up, in us", number,
-            viewer->captured_back);
+        bus_judge_say(judge, false, "viewer %d: capture times went back %" PRId64 " times; they count up, in us",
+                      number, viewer->captured_back);
     check_faults(judge, number, &viewer->faults);
     check_delay(judge, number, viewer, pose_delay_us);
     if (judge->bad == before)
@@ -116,69 +103,75 @@ static bool any_captured(const bus_watch_t *watch)
     return any;
 }
 
-static void check_time(judge_t *judge, const bus_watch_t *watch)
+static void check_time(bus_judge_t *judge, const bus_watch_t *watch)
 {
     const bus_watch_time_t *time = &watch->time;
     const int before = judge->bad;
     if (time->pairs.count == 0) {
         if (any_captured(watch))
-            say(judge, false,
+            bus_judge_say(
+                judge, false,
                 "bus time: nobody gives it, so capture times are of no use; send Sync and FollowUp, see BUS.md");
         return;
     }
     if (any_captured(watch) && time->origin != BUS_MASTER_TRACKER)
-        say(judge, false,
+        bus_judge_say(
+            judge, false,
             "bus time: board %u's own clock, so capture times are of no use; the tracker should give it, see BUS.md",
             (unsigned)time->origin);
     const int64_t silent_us = watch->last_us - time->pairs.last_us;
     const int64_t gap_us = silent_us > time->pairs.longest_us ? silent_us : time->pairs.longest_us;
     if (gap_us > BUS_MASTER_SILENT_US)
-        say(judge, false, "bus time: no Sync and FollowUp for %" PRId64 " ms, expected every %d", gap_us / 1000,
-            CAN_SYNC_PERIOD_MS);
+        bus_judge_say(judge, false, "bus time: no Sync and FollowUp for %" PRId64 " ms, expected every %d",
+                      gap_us / 1000, CAN_SYNC_PERIOD_MS);
     if (time->changes > 0)
-        say(judge, false, "bus time: who gives it changed %" PRId64 " times; are there two trackers, or lost frames?",
-            time->changes);
+        bus_judge_say(judge, false,
+                      "bus time: who gives it changed %" PRId64 " times; are there two trackers, or lost frames?",
+                      time->changes);
     if (judge->bad == before)
-        say(judge, true, "bus time: given by number %u, %" PRId64 " pairs", (unsigned)time->master, time->pairs.count);
+        bus_judge_say(judge, true, "bus time: given by number %u, %" PRId64 " pairs", (unsigned)time->master,
+                      time->pairs.count);
 }
 
-static void check_board_time(judge_t *judge, int node, const bus_watch_board_t *board)
+static void check_board_time(bus_judge_t *judge, int node, const bus_watch_board_t *board)
 {
     const can_time_t *time = &board->time;
     if (!board->has_time)
         return;
     if (time->state == CAN_TIME_NONE)
-        say(judge, false, "board %d: has no bus time; it takes 4 to 20 s of Sync and FollowUp", node);
+        bus_judge_say(judge, false, "board %d: has no bus time; it takes 4 to 20 s of Sync and FollowUp", node);
     if (time->state == CAN_TIME_HOLDOVER)
-        say(judge, false, "board %d: does not hear number %u, whose bus time it had; bus-off, or a loose wire?", node,
-            (unsigned)time->master);
+        bus_judge_say(judge, false,
+                      "board %d: does not hear number %u, whose bus time it had; bus-off, or a loose wire?", node,
+                      (unsigned)time->master);
     if (time->state != CAN_TIME_NONE && time->error_us > MOST_TIME_ERROR_US)
-        say(judge, false, "board %d: its bus time may be off by %" PRIu32 " us, expected at most %d", node,
-            time->error_us, MOST_TIME_ERROR_US);
+        bus_judge_say(judge, false, "board %d: its bus time may be off by %" PRIu32 " us, expected at most %d", node,
+                      time->error_us, MOST_TIME_ERROR_US);
 }
 
-static void check_board_steps(judge_t *judge, int node, const bus_watch_board_t *board, bool expected)
+static void check_board_steps(bus_judge_t *judge, int node, const bus_watch_board_t *board, bool expected)
 {
     if (expected && board->steps == 0)
-        say(judge, false, "board %d: sends no Step, as others do; is its firmware of this version?", node);
+        bus_judge_say(judge, false, "board %d: sends no Step, as others do; is its firmware of this version?", node);
     if (board->in_step < board->steps)
-        say(judge, false,
-            "board %d: in step in %.1f %% of its Steps, expected 100; its bus time, and its panel's refresh rate?",
-            node, 100.0 * (double)board->in_step / (double)board->steps);
+        bus_judge_say(judge, false, "board %d: in step in %.1f %% of its Steps, expected 100; %s", node,
+                      100.0 * (double)board->in_step / (double)board->steps, bus_check_step_advice(board));
 }
 
-static void check_state(judge_t *judge, int node, can_board_state_t state)
+static void check_state(bus_judge_t *judge, int node, can_board_state_t state)
 {
     if (state == CAN_BOARD_FROZEN)
-        say(judge, false,
+        bus_judge_say(
+            judge, false,
             "board %d: an operator has frozen its picture; `wallwarp-pose command --node %d freeze off` ends that",
             node, node);
     else if (state == CAN_BOARD_PATTERN)
-        say(judge, false,
+        bus_judge_say(
+            judge, false,
             "board %d: an operator has put a test pattern on; `wallwarp-pose command --node %d pattern none` ends that",
             node, node);
     else if (state != CAN_BOARD_RUNNING)
-        say(judge, false, "board %d: is %s, expected running", node, can_board_state_name(state));
+        bus_judge_say(judge, false, "board %d: is %s, expected running", node, can_board_state_name(state));
 }
 
 /* By an operator: it does not show what the others do. */
@@ -188,48 +181,51 @@ static bool is_held(can_board_state_t state)
 }
 
 /* @param steps  Do boards send Step at all? */
-static void check_board(judge_t *judge, int node, const bus_watch_board_t *board, int64_t end_us, bool steps)
+static void check_board(bus_judge_t *judge, int node, const bus_watch_board_t *board, int64_t end_us, bool steps)
 {
     const int before = judge->bad;
     if (board->heartbeats.count == 0) {
-        say(judge, false, "board %d: reports but no heartbeat; is its firmware of this version?", node);
+        bus_judge_say(judge, false, "board %d: reports but no heartbeat; is its firmware of this version?", node);
         return;
     }
     const int64_t silent_us = end_us - board->heartbeats.last_us;
     const int64_t gap_us = silent_us > board->heartbeats.longest_us ? silent_us : board->heartbeats.longest_us;
     if (gap_us > HEARTBEAT_GAP_US)
-        say(judge, false, "board %d: no heartbeat for %" PRId64 " ms, expected one every %d; power, cable, bus-off?",
-            node, gap_us / 1000, CAN_HEARTBEAT_PERIOD_MS);
+        bus_judge_say(judge, false,
+                      "board %d: no heartbeat for %" PRId64 " ms, expected one every %d; power, cable, bus-off?", node,
+                      gap_us / 1000, CAN_HEARTBEAT_PERIOD_MS);
     if (board->restarts > 0)
-        say(judge, false, "board %d: started anew %" PRId64 " times; see its log", node, board->restarts);
+        bus_judge_say(judge, false, "board %d: started anew %" PRId64 " times; see its log", node, board->restarts);
     check_state(judge, node, board->heartbeat.state);
     if (board->heartbeat.fault_flags != 0) {
         char names[FAULT_NAMES_LENGTH];
         event_fault_names(names, board->heartbeat.fault_flags);
-        say(judge, false, "board %d: reports a fault: %s", node, names);
+        bus_judge_say(judge, false, "board %d: reports a fault: %s", node, names);
     }
     check_board_time(judge, node, board);
     if (!is_held(board->heartbeat.state))
         check_board_steps(judge, node, board, steps);
+    bus_check_counts(judge, node, board);
     if (judge->bad == before)
-        say(judge, true, "board %d: running, up for %" PRIu32 " s", node, board->heartbeat.uptime_s);
+        bus_judge_say(judge, true, "board %d: running, up for %" PRIu32 " s", node, board->heartbeat.uptime_s);
 }
 
-static void check_bus(judge_t *judge, const bus_watch_t *watch)
+static void check_bus(bus_judge_t *judge, const bus_watch_t *watch)
 {
     const bool light = watch->worst_load_ppm <= MOST_LOAD_PPM;
-    say(judge, light, "load: %.1f %% in the fullest second%s", watch->worst_load_ppm / 1e4,
-        light ? "" : "; above 70 % poses come late: lower the rate, or raise the bit rate");
+    bus_judge_say(judge, light, "load: %.1f %% in the fullest second%s", watch->worst_load_ppm / 1e4,
+                  light ? "" : "; above 70 % poses come late: lower the rate, or raise the bit rate");
     if (watch->errors > 0)
-        say(judge, false, "%" PRId64 " bus errors; termination, bit rate, cable?", watch->errors);
+        bus_judge_say(judge, false, "%" PRId64 " bus errors; termination, bit rate, cable?", watch->errors);
     if (watch->damaged > 0)
-        say(judge, false, "%" PRId64 " damaged reports of boards; do two have one node number?", watch->damaged);
+        bus_judge_say(judge, false, "%" PRId64 " damaged reports of boards; do two have one node number?",
+                      watch->damaged);
     if (watch->unknown > 0)
-        say(judge, true, "%" PRId64 " frames that are none of wallwarp.dbc's", watch->unknown);
+        bus_judge_say(judge, true, "%" PRId64 " frames that are none of wallwarp.dbc's", watch->unknown);
 }
 
 /* @return How many boards were heard. */
-static int check_boards(judge_t *judge, const bus_watch_t *watch)
+static int check_boards(bus_judge_t *judge, const bus_watch_t *watch)
 {
     int boards = 0, stepping = 0;
     for (int node = 1; node <= CAN_MAX_NODE; node++)
@@ -241,21 +237,23 @@ static int check_boards(judge_t *judge, const bus_watch_t *watch)
         boards++;
     }
     if (watch->steps.differing > 0)
-        say(judge, false,
-            "frames: boards in step differed at %" PRId64 " of %" PRId64
-            " refreshes; have they one room file, and one firmware?",
-            watch->steps.differing, watch->steps.compared);
+        bus_judge_say(judge, false,
+                      "frames: boards in step differed at %" PRId64 " of %" PRId64
+                      " refreshes; have they one room file, and one firmware?",
+                      watch->steps.differing, watch->steps.compared);
     else if (stepping > 1)
-        say(judge, watch->steps.compared > 0, "frames: %" PRId64 " refreshes compared%s", watch->steps.compared,
+        bus_judge_say(
+            judge, watch->steps.compared > 0, "frames: %" PRId64 " refreshes compared%s", watch->steps.compared,
             watch->steps.compared > 0 ? ", all boards in step showed the same" : "; no two boards were in step");
+    bus_check_latency(judge, watch);
     return boards;
 }
 
 int bus_check_print(FILE *file, const bus_watch_t *watch, int64_t pose_delay_us)
 {
-    judge_t judge = {.file = file};
+    bus_judge_t judge = {.file = file};
     if (watch->frames == 0) {
-        say(&judge, false, "no frame: is anything sending, and is the bit rate right?");
+        bus_judge_say(&judge, false, "no frame: is anything sending, and is the bit rate right?");
         return judge.bad;
     }
     check_bus(&judge, watch);
@@ -269,8 +267,8 @@ int bus_check_print(FILE *file, const bus_watch_t *watch, int64_t pose_delay_us)
     }
     const int boards = check_boards(&judge, watch);
     if (viewers == 0)
-        say(&judge, false, "no poses: see `wallwarp-pose send --help`");
+        bus_judge_say(&judge, false, "no poses: see `wallwarp-pose send --help`");
     if (boards == 0)
-        say(&judge, false, "no board reports; are they powered, and are there two nodes or more on the bus?");
+        bus_judge_say(&judge, false, "no board reports; are they powered, and are there two nodes or more on the bus?");
     return judge.bad;
 }

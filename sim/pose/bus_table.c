@@ -4,6 +4,7 @@
 
 #include <inttypes.h>
 
+#include "sim/pose/bus_check_latency.h"
 #include "warp_fixed/method.h"
 
 static const double us_per_s = 1e6, nm_per_mm = 1e6;
@@ -148,6 +149,39 @@ static void print_agreement(FILE *file, const bus_watch_t *watch)
     }
 }
 
+static void print_board_latency(FILE *file, int node, const bus_watch_board_t *board)
+{
+    const can_latency_t *latency = &board->latency;
+    const can_counts_t *counts = &board->counts;
+    fprintf(file, "%6d  ", node);
+    if (board->has_latency)
+        fprintf(file, "%-11s %7.2f %5u %7.1f %8.1f %7" PRIu32 " %7" PRId32 " %-5s", bus_check_step_name(latency->fault),
+                latency->photon_us / 1e3, (unsigned)latency->held, latency->lag_us / 1e3, latency->display_us / 1e3,
+                latency->wanted_ms, latency->off_us, latency->genlocked ? "yes" : "no");
+    else
+        fprintf(file, "%-11s %7s %5s %7s %8s %7s %7s %-5s", "-", "-", "-", "-", "-", "-", "-", "-");
+    if (board->has_counts)
+        fprintf(file, " %9" PRIu32 " %7" PRIu32 " %7" PRIu32 " %6" PRIu32 " %8" PRIu32 "\n", counts->tags_lost,
+                counts->guessed, counts->leaders, counts->epochs_missed, counts->command_faults);
+    else
+        fprintf(file, " %9s %7s %7s %6s %8s\n", "-", "-", "-", "-", "-");
+}
+
+static void print_latency(FILE *file, const bus_watch_t *watch)
+{
+    bool titled = false;
+    for (int node = 1; node <= CAN_MAX_NODE; node++) {
+        const bus_watch_board_t *board = &watch->board[node];
+        if (!board->has_latency && !board->has_counts)
+            continue;
+        if (!titled)
+            fprintf(file, " board  why         late_ms  held  lag_ms  display  wanted  off_us house tags_lost guessed"
+                          " leaders missed commands\n");
+        titled = true;
+        print_board_latency(file, node, board);
+    }
+}
+
 void bus_table_print(FILE *file, const char *bus, const bus_watch_t *watch)
 {
     print_bus(file, bus, watch);
@@ -165,4 +199,5 @@ void bus_table_print(FILE *file, const char *bus, const bus_watch_t *watch)
             print_board(file, node, board);
     }
     print_agreement(file, watch);
+    print_latency(file, watch);
 }

@@ -9,7 +9,8 @@
 
 /**
  * Print the bus's line, one line per viewer heard, and one per board heard; then bus time, the refreshes compared, and
- * a line per board that tells of either. Rates, jitter and counts are since the start.
+ * a line per board that tells of either; then one per board that tells how late it is and what it has counted. Rates,
+ * jitter and counts are since the start.
  */
 void bus_table_print(FILE *file, const char *bus, const bus_watch_t *watch);
 

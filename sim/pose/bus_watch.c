@@ -117,10 +117,20 @@ static bool take_pose(bus_watch_viewer_t *viewer, const bus_master_t *clock, con
 
 static void take_heartbeat(bus_watch_board_t *board, const can_heartbeat_t *heartbeat, int64_t time_us)
 {
-    if (board->heartbeats.count > 0 && heartbeat->uptime_s < board->heartbeat.uptime_s)
+    if (board->heartbeats.count > 0 && heartbeat->uptime_s < board->heartbeat.uptime_s) {
         board->restarts++;
+        board->has_counts = false;
+    }
     board->heartbeat = *heartbeat;
     note_event(&board->heartbeats, time_us);
+}
+
+static void take_counts(bus_watch_board_t *board, const can_counts_t *counts)
+{
+    if (!board->has_counts)
+        board->first_counts = *counts;
+    board->has_counts = true;
+    board->counts = *counts;
 }
 
 static void take_step(bus_watch_t *watch, const can_step_t *step, int64_t time_us)
@@ -157,6 +167,14 @@ static can_check_t take_report(bus_watch_t *watch, const hal_can_frame_t *frame)
     can_step_t step;
     if (check == CAN_CHECK_OTHER && (check = can_step_decode(&step, frame)) == CAN_CHECK_OK)
         take_step(watch, &step, frame->time_us);
+    can_latency_t latency;
+    if (check == CAN_CHECK_OTHER && (check = can_latency_decode(&latency, frame)) == CAN_CHECK_OK) {
+        watch->board[latency.node].latency = latency;
+        watch->board[latency.node].has_latency = true;
+    }
+    can_counts_t counts;
+    if (check == CAN_CHECK_OTHER && (check = can_counts_decode(&counts, frame)) == CAN_CHECK_OK)
+        take_counts(&watch->board[counts.node], &counts);
     can_stage_t stage;
     return check == CAN_CHECK_OTHER ? can_stage_decode(&stage, frame) : check;
 }
@@ -202,7 +220,7 @@ static can_check_t take_time(bus_watch_t *watch, const hal_can_frame_t *frame)
 bool bus_watch_heard(const bus_watch_board_t *board)
 {
     return board->heartbeats.count > 0 || board->has_status || board->has_quality || board->has_time ||
-           board->steps > 0;
+           board->steps > 0 || board->has_latency;
 }
 
 /* Requests to boards and their replies, which no decoder judges. */

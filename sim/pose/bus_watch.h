@@ -7,6 +7,8 @@
 #include <stdint.h>
 
 #include "firmware/bus_master.h"
+#include "firmware/can_counts.h"
+#include "firmware/can_latency.h"
 #include "firmware/can_protocol.h"
 #include "firmware/pose_from_can.h"
 #include "sim/pose/step_watch.h"
@@ -47,6 +49,9 @@ typedef struct {
     can_time_t time;        /**< the newest, */
     can_step_t step;        /**< and of these: unspecified while steps is 0 */
     int64_t steps, in_step; /**< Steps, and those of them that say so */
+    bool has_latency, has_counts;
+    can_latency_t latency;
+    can_counts_t counts, first_counts; /**< the newest, and the first that was heard since the board's start */
 } bus_watch_board_t;
 
 /** The pairs of Sync and FollowUp. */

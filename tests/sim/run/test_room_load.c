@@ -85,9 +85,9 @@ static void check_room(bool classic)
     assert_int_equal(log.watch.unknown + log.watch.damaged, 0);
     for (int m = 0; m < MESSAGES; m++) {
         const double expected = (classic ? MESSAGE[m].classic : MESSAGE[m].fd) ? MESSAGE[m].per_s * SECONDS : 0;
-        if (fabs((double)log.frames[m] - expected) > expected * 0.03)
-            fail_msg("%s: %lld frames in %d s, expected %.0f", MESSAGE[m].name, (long long)log.frames[m], SECONDS,
-                     expected);
+        const double frames = (double)log.frames[m]; /* some are sent at the first blank after their time */
+        if (frames > expected * 1.02 || frames < expected * 0.85)
+            fail_msg("%s: %.0f frames in %d s, expected at most %.0f", MESSAGE[m].name, frames, SECONDS, expected);
     }
     bench_close(&b);
 }
