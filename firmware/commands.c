@@ -14,9 +14,9 @@ enum { HEADER_BYTES = 2, NUMBER_BYTES = 4, LOG_BYTES = HEADER_BYTES + NUMBER_BYT
 _Static_assert(LOG_BYTES + COMMAND_MOST_EVENTS * EVENT_BYTES <= COMMAND_REPLY_BYTES, "a reply holds these events");
 _Static_assert((int)COMMAND_REPLY_BYTES <= (int)ISOTP_MAX_LENGTH, "a reply is one message");
 
-void commands_init(commands_t *commands, int32_t node)
+void commands_init(commands_t *commands, int32_t node, int32_t latency_ms)
 {
-    *commands = (commands_t){.pattern = COMMAND_PATTERN_NONE};
+    *commands = (commands_t){.pattern = COMMAND_PATTERN_NONE, .wanted_latency_ms = latency_ms};
     isotp_init(&commands->link, CAN_ID_COMMAND + (uint32_t)node, CAN_ID_REPLY + (uint32_t)node);
 }
 

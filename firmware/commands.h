@@ -26,8 +26,8 @@ typedef struct {
     bool reboot;               /**< asked for */
 } commands_t;
 
-/** Begin to listen; nothing is asked for. @param node  1 to CAN_MAX_NODE. */
-void commands_init(commands_t *commands, int32_t node);
+/** Begin to listen; nothing is asked for but the room's latency. @param node  1 to CAN_MAX_NODE. */
+void commands_init(commands_t *commands, int32_t node, int32_t latency_ms);
 
 /**
  * Execute the request that has come, if any, and send what is due of a reply. A request that comes while a reply is

@@ -61,7 +61,7 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
     for (int32_t i = WARP_METHODS - 1; i >= 0; i--) /* what an operator may want, the best first */
         (void)warp_add_method(&projector->warp, warp_methods[i]);
     projector_begin_ladder(projector);
-    commands_init(&projector->commands, board->node);
+    commands_init(&projector->commands, board->node, room->latency_ms);
     event_watch_init(&projector->events, board->node);
 }
 

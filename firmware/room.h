@@ -45,6 +45,7 @@ typedef struct {
     frame_rate_t refresh;          /**< of all panels; 60 Hz unless stated */
     bool refresh_stated;
     int32_t pose_delay_us;      /**< see frame_clock_settings_t; 2 ms unless stated */
+    int32_t latency_ms;         /**< all boards as late as the slowest, and so late at least; 0, unless stated: not */
     pose_for_frame_rule_t rule; /**< which pose a picture is mapped with; the newest one unless stated */
 } room_t;
 

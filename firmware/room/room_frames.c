@@ -7,7 +7,7 @@
 
 #include "firmware/frame_tag.h"
 
-enum { LEAST_HZ = 24, MOST_HZ = 240 };
+enum { LEAST_HZ = 24, MOST_HZ = 240, MOST_LATENCY_MS = 200 };
 
 static const double rate_tolerance_hz = 0.005;
 
@@ -71,11 +71,13 @@ bool room_frames_check(const room_checker_t *checker, const room_yaml_frames_t *
 {
     _Static_assert((int)ROOM_YAML_POSE_TAG == (int)POSE_FOR_FRAME_TAG, "the same order");
     _Static_assert((int)ROOM_YAML_CONTENT_FAR == (int)POSE_FOR_FRAME_FAR, "the same order");
-    int64_t pose_delay_us = 2000;
+    int64_t pose_delay_us = 2000, latency_us = 0;
     if (!check_rate(checker, yaml->refresh_hz, &room->refresh) ||
-        !check_thousandths(checker, "frames.pose_delay_ms", yaml->pose_delay_ms, 50.0, &pose_delay_us))
+        !check_thousandths(checker, "frames.pose_delay_ms", yaml->pose_delay_ms, 50.0, &pose_delay_us) ||
+        !check_thousandths(checker, "frames.latency_ms", yaml->latency_ms, MOST_LATENCY_MS, &latency_us))
         return false;
     room->refresh_stated = yaml->refresh_hz != NULL;
     room->pose_delay_us = (int32_t)pose_delay_us;
+    room->latency_ms = (int32_t)((latency_us + 999) / 1000);
     return check_rule(checker, yaml, room);
 }

@@ -78,6 +78,7 @@ static const cyaml_strval_t contents[] = {{.str = "wall", .val = ROOM_YAML_CONTE
 static const cyaml_schema_field_t frames_keys[] = {
     CYAML_FIELD_FLOAT_PTR("refresh_hz", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, room_yaml_frames_t, refresh_hz),
     CYAML_FIELD_FLOAT_PTR("pose_delay_ms", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, room_yaml_frames_t, pose_delay_ms),
+    CYAML_FIELD_FLOAT_PTR("latency_ms", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, room_yaml_frames_t, latency_ms),
     CYAML_FIELD_ENUM("pose", CYAML_FLAG_OPTIONAL | CYAML_FLAG_STRICT, room_yaml_frames_t, pose, poses,
                      CYAML_ARRAY_LEN(poses)),
     CYAML_FIELD_FLOAT_PTR("render_ms", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, room_yaml_frames_t, render_ms),

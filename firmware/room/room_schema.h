@@ -58,7 +58,7 @@ typedef enum { ROOM_YAML_POSE_LATEST, ROOM_YAML_POSE_DELAY, ROOM_YAML_POSE_TAG }
 typedef enum { ROOM_YAML_CONTENT_WALL, ROOM_YAML_CONTENT_DEPTH, ROOM_YAML_CONTENT_FAR } room_yaml_content_t;
 
 typedef struct {
-    double *refresh_hz, *pose_delay_ms, *render_ms, *depth_mm;
+    double *refresh_hz, *pose_delay_ms, *latency_ms, *render_ms, *depth_mm;
     room_yaml_pose_t pose;       /**< latest unless stated */
     room_yaml_content_t content; /**< wall unless stated */
 } room_yaml_frames_t;

@@ -69,7 +69,10 @@ static void print_sums(FILE *file, const run_board_sum_t *sum)
         fprintf(file, "[%.3f,%.3f]", sum->k_least, sum->k_most);
     else
         fputs("null", file);
-    fprintf(file, ",\"lit\":%.4f,\"ms\":[%.3f,%.3f],\"db\":[", sum->lit_share, sum->step_ms_mean, sum->step_ms_most);
+    fprintf(file, ",\"lit\":%.4f,\"ms\":[%.3f,%.3f],\"late_ms\":", sum->lit_share, sum->step_ms_mean,
+            sum->step_ms_most);
+    print_number(file, sum->latency_ms, 1);
+    fputs(",\"db\":[", file);
     for (int kind = 0; kind < RUN_DBS; kind++) {
         fputs(kind == 0 ? "" : ",", file);
         print_number(file, sum->db[kind], 3);

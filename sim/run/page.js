@@ -167,14 +167,14 @@ function fillPlots() {
 }
 
 function fillTable() {
-  const head = ["board", "node", "panel, px", "method", "step k", "lit", "PSNR / limit", "vs original / limit", "ms a frame", "worst ms", "off plane, mm"];
+  const head = ["board", "node", "panel, px", "method", "step k", "lit", "PSNR / limit", "vs original / limit", "ms a frame", "worst ms", "pose to photon, ms", "off plane, mm"];
   const row = put(by("boards"), "tr");
   head.forEach(text => put(row, "th", text));
   data.boards.forEach(b => {
     const cells = put(by("boards"), "tr");
     const pair = i => b.db[i] === null ? "–" : number(b.db[i], 2) + " / " + number(b.db[i + 1], 2);
     [b.name, b.node, b.width + " × " + b.height, b.method, b.k ? b.k[0].toFixed(2) + " – " + b.k[1].toFixed(2) : "–", (100 * b.lit).toFixed(0) + " %",
-      pair(0), pair(2), b.ms[0].toFixed(1), b.ms[1].toFixed(1), b.plane_mm[1].toFixed(1)].forEach(text => put(cells, "td", text));
+      pair(0), pair(2), b.ms[0].toFixed(1), b.ms[1].toFixed(1), b.late_ms === null ? "–" : b.late_ms.toFixed(1), b.plane_mm[1].toFixed(1)].forEach(text => put(cells, "td", text));
   });
 }
 

@@ -108,9 +108,24 @@ static void sum_drawn(run_board_sum_t *sum, const run_record_t *record, int32_t 
     sum->lit_share = drawn > 0 ? lit / drawn : 0;
 }
 
+/* Of the frames in step. */
+static double mean_latency_ms(const run_record_t *record, int32_t board)
+{
+    double sum_ms = 0;
+    int32_t count = 0;
+    for (int32_t n = 0; n < record->frames; n++) {
+        const projector_report_t *report = &record->wall[n * record->boards + board].report;
+        if (!report->agreement.in_step)
+            continue;
+        sum_ms += report->pose_to_photon_us / 1e3;
+        count++;
+    }
+    return count > 0 ? sum_ms / count : (double)NAN;
+}
+
 run_board_sum_t run_record_board(const run_record_t *record, int32_t board, const wall_t *wall)
 {
-    run_board_sum_t sum = {.drawn = false};
+    run_board_sum_t sum = {.latency_ms = mean_latency_ms(record, board)};
     sum_drawn(&sum, record, board, wall);
     for (int32_t n = 0; n < record->frames; n++) {
         const double ms = (double)record->wall[n * record->boards + board].step_time_us / 1000;
@@ -124,11 +139,23 @@ run_board_sum_t run_record_board(const run_record_t *record, int32_t board, cons
     return sum;
 }
 
+/* Has a wall in step shown this content as another one? Pictures that are held back come up to so many frames later. */
+static bool differs(const run_record_t *record, int32_t frame, const can_step_t *step)
+{
+    const int32_t begin = frame > FRAME_CLOCK_MOST_HELD ? frame - FRAME_CLOCK_MOST_HELD : 0;
+    for (int32_t n = begin * record->boards; n < (frame + 1) * record->boards; n++) {
+        const can_step_t *other = &record->wall[n].report.agreement;
+        if (other->in_step && other->refresh == step->refresh &&
+            (other->picture != step->picture || other->pose_us != step->pose_us))
+            return true;
+    }
+    return false;
+}
+
 run_agreement_t run_record_agreement(const run_record_t *record)
 {
     run_agreement_t sum = {.refreshes = (int64_t)record->frames * record->boards};
     for (int32_t n = 0; n < record->frames; n++) {
-        const can_step_t *first = NULL;
         bool differ = false;
         for (int32_t i = 0; i < record->boards; i++) {
             const projector_report_t *report = &record->wall[n * record->boards + i].report;
@@ -139,9 +166,7 @@ run_agreement_t run_record_agreement(const run_record_t *record)
             sum.in_step++;
             sum.latency_ms_mean += latency_ms;
             sum.latency_ms_most = latency_ms > sum.latency_ms_most ? latency_ms : sum.latency_ms_most;
-            first = first == NULL ? step : first;
-            differ |=
-                step->refresh != first->refresh || step->picture != first->picture || step->pose_us != first->pose_us;
+            differ |= differs(record, n, step);
         }
         sum.differing += differ;
     }

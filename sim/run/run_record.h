@@ -54,6 +54,7 @@ typedef struct {
     double k_least, k_most; /**< step k over pixels in the picture */
     double lit_share;       /**< mean share of the panel that shows picture */
     double step_ms_mean, step_ms_most;
+    double latency_ms;  /**< mean pose to photon of the frames in step; NAN where there is none */
     int32_t judged;     /**< frames */
     double db[RUN_DBS]; /**< means over the judged frames with a finite value; NAN where there is none */
 } run_board_sum_t;

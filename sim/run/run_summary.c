@@ -41,7 +41,11 @@ static void print_board(const run_summary_t *summary, int32_t index, FILE *file)
     print_pair(file, sum.db[RUN_DB_PSNR], sum.db[RUN_DB_LIMIT]);
     if (summary->original_name != NULL)
         print_pair(file, sum.db[RUN_DB_ORIGINAL_PSNR], sum.db[RUN_DB_ORIGINAL_LIMIT]);
-    fprintf(file, "  %9.2f\n", sum.step_ms_mean);
+    fprintf(file, "  %9.2f", sum.step_ms_mean);
+    if (isnan(sum.latency_ms))
+        fprintf(file, "  %7s\n", "-");
+    else
+        fprintf(file, "  %7.1f\n", sum.latency_ms);
 }
 
 void run_summary_print(const run_summary_t *summary, FILE *file)
@@ -50,7 +54,7 @@ void run_summary_print(const run_summary_t *summary, FILE *file)
     fprintf(file, "\n%-12s %-9s  %-11s %14s  %7s  %15s", "board", "panel", "method", "step k", "lit", "PSNR/limit dB");
     if (summary->original_name != NULL)
         fprintf(file, "  %15s", "vs original dB");
-    fprintf(file, "  %9s\n", "ms/frame");
+    fprintf(file, "  %9s  %7s\n", "ms/frame", "late ms");
     for (int32_t i = 0; i < room->board_count; i++)
         print_board(summary, i, file);
     fprintf(file, "\n%" PRId32 " frames at %.5g Hz in %s time", summary->record->frames, summary->rate_hz,

@@ -148,7 +148,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     input_t input = {data, size};
     int64_t now_us = 1000000;
-    commands_init(&projector.commands, NODE);
+    commands_init(&projector.commands, NODE, 0);
     event_watch_init(&projector.events, NODE);
     projector.ladder = ladder_of(projector.room_method);
     projector_begin_ladder(&projector);

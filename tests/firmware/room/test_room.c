@@ -31,6 +31,7 @@ static const char full_room[] =
     "    wall: {corners_mm: " FRONT_CORNERS "}\n"
     "    method: gauss+linear\n"
     "    viewer: 3\n"
+    "    display_delay_ms: 33.25\n"
     "    border: [1, 2, 255]\n"
     "    step: all\n"
     "    markers: [{px: [960, 540.5], mm: [0, 1.0416667, 0]}]\n"
@@ -40,7 +41,8 @@ static const char full_room[] =
     "    projector: {width: 1280, height: 800}\n"
     "    wall:\n"
     "      corners_mm:\n" LEFT_CORNERS "can: {bitrate: 250000, data_bitrate: 1000000, fd: false}\n"
-    "frames: {refresh_hz: 59.94, pose_delay_ms: 4.5, pose: delay, render_ms: 33.4, content: depth, depth_mm: 5000}\n";
+    "frames: {refresh_hz: 59.94, pose_delay_ms: 4.5, latency_ms: 60.5, pose: delay, render_ms: 33.4, content: depth, "
+    "depth_mm: 5000}\n";
 
 /* All warnings of one load, one per line. */
 typedef struct {
@@ -105,6 +107,8 @@ static void test_optional_keys_have_their_defaults(void **state)
     assert_string_equal(room.board[0].method->name, "mean+cubic");
     assert_int_equal(room.board[0].border[0] + room.board[0].border[1] + room.board[0].border[2], 0);
     assert_int_equal(room.board[0].viewer, 0);
+    assert_int_equal(room.board[0].display_us, 0);
+    assert_int_equal(room.latency_ms, 0);
     assert_false(room.board[0].step_all);
     assert_int_equal(room.board[0].corners.marker_count, 0);
     assert_int_equal(room.bitrate, 500000);
@@ -132,6 +136,7 @@ static void test_every_key_is_read(void **state)
     assert_false(room.fd);
     assert_true(room.refresh.frames == 60000 && room.refresh.seconds == 1001 && room.refresh_stated);
     assert_int_equal(room.pose_delay_us, 4500);
+    assert_int_equal(room.latency_ms, 61);
     assert_true(room.rule.mode == POSE_FOR_FRAME_DELAY && room.rule.content == POSE_FOR_FRAME_DEPTH);
     assert_int_equal(room.rule.render_us, 33400);
     assert_int_equal(room.rule.depth_um, 5000000);
@@ -142,6 +147,7 @@ static void test_every_key_is_read(void **state)
     static const uint8_t border[3] = {1, 2, 255};
     assert_memory_equal(front->border, border, sizeof border);
     assert_int_equal(front->viewer, 3);
+    assert_int_equal(front->display_us, 33250);
     assert_true(front->step_all);
 }
 
@@ -193,7 +199,7 @@ static void test_odd_walls_are_warned_of(void **state)
         {FRONT_CORNERS, "[[2000, -1125, 0], [-2000, -1125, 0], null, [2000, 1125, 0]]",
          "6: boards[0].wall.corners_mm: mirrored as seen from the other walls"},
         {LEFT_CORNERS, "        [[-2000, -1125, 0], [-2000, -1125, -4000], [-2000, 1125, -4000], [-2000, 1125, 0]]\n",
-         "17: boards[1].wall.corners_mm: mirrored as seen from the other walls"},
+         "18: boards[1].wall.corners_mm: mirrored as seen from the other walls"},
     };
     char path[SCRATCH_PATH_LENGTH], expected[MAX_TEXT];
     scratch_path(*state, "odd.yaml", path);
