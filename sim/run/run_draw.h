@@ -23,7 +23,7 @@ typedef struct {
     bool seen;  /**< eye means something */
     bool judge; /**< measure PSNR */
     pose_t eye;
-    bool corrected[ROOM_MAX_BOARDS]; /**< the wall shows a picture made for an eye */
+    bool corrected[ROOM_MAX_BOARDS]; /**< the wall shows this picture, made for the eye; not one that is held back */
     image_t shown[ROOM_MAX_BOARDS];  /**< XRGB8888, of the panels' sizes */
     image_t picture;                 /**< XRGB8888: what the camera delivered */
 } run_job_t;

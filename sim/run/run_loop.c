@@ -105,10 +105,11 @@ static bool hand_over(run_loop_t *loop, int64_t blank_us)
     job->eye = frame->eye;
     job->judge = loop->judge_every > 0 && n % loop->judge_every == loop->judge_every / 2;
     const picture_t *picture = NULL;
+    const int32_t held = sim_world_projector(loop->world, 0)->choice.step.held; /* by whom picture and eye are */
     for (int32_t i = 0; i < loop->record->boards; i++) {
         const projector_t *projector = sim_world_projector(loop->world, i);
         const image_t *shown = sim_world_shown(loop->world, i, blank_us);
-        job->corrected[i] = projector->report.corrected && shown != NULL;
+        job->corrected[i] = projector->report.corrected && shown != NULL && projector->choice.step.held == held;
         const picture_t panel = shown == NULL ? (picture_t){0} : picture_from_image(shown);
         run_pictures_copy(&job->shown[i], shown == NULL ? NULL : &panel);
         if (picture == NULL && projector->choice.now.any)
