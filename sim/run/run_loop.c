@@ -69,6 +69,7 @@ static bool make_step(run_loop_t *loop, int64_t now_us)
         fprintf(stderr, "wallwarp-sim: out of memory after %" PRId32 " frames\n", record->frames);
         return false;
     }
+    house_signal_advance(&loop->house, loop->world, loop->room, now_us);
     if (!step_boards(loop, now_us, error) && !loop->camera_told) {
         fprintf(stderr, "warning: camera: %s\n", error);
         loop->camera_told = true;
@@ -76,6 +77,7 @@ static bool make_step(run_loop_t *loop, int64_t now_us)
     run_frame_t *frame = &record->frame[record->frames - 1];
     frame->time_us = now_us - loop->start_us;
     record_bus(loop, frame);
+    house_signal_note(frame, loop->world, loop->room);
     for (int32_t i = 0; i < record->boards; i++) {
         run_wall_t *wall = &record->wall[(record->frames - 1) * record->boards + i];
         const projector_t *projector = sim_world_projector(loop->world, i);

@@ -9,6 +9,7 @@
 
 #include "sim/bus/socketcand_server.h"
 #include "sim/pose/pose_sender.h"
+#include "sim/run/house_signal.h"
 #include "sim/run/run_files.h"
 #include "sim/run/run_pictures.h"
 #include "sim/run/sim_world.h"
@@ -23,6 +24,7 @@ typedef struct {
     run_files_t *files;
     run_pictures_t *pictures;
     sim_rate_t refresh; /**< beat 0 is the first step */
+    house_signal_t house;
     int64_t start_us;
     int64_t frames;      /**< to make; INT64_MAX for until *stop */
     int32_t judge_every; /**< 0: never */

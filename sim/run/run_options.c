@@ -22,6 +22,7 @@ enum {
     KEY_DISPLAY,
     KEY_KERNELS,
     KEY_RATE,
+    KEY_GENLOCK,
     KEY_ORIGINAL,
     KEY_JUDGE
 };
@@ -44,6 +45,23 @@ static double read_rate(struct argp_state *state, const char *text)
     if (end == text || *end != '\0' || !(rate >= RUN_RATE_LEAST_HZ && rate <= RUN_RATE_MAX_HZ))
         argp_error(state, "--rate: found \"%s\", expected %d to %d Hz", text, RUN_RATE_LEAST_HZ, RUN_RATE_MAX_HZ);
     return rate;
+}
+
+/* PPM or PPM,NODE. */
+static house_signal_options_t read_genlock(struct argp_state *state, const char *text)
+{
+    char *end;
+    const long ppm = strtol(text, &end, 10);
+    bool good = end != text && ppm >= -1000 && ppm <= 1000;
+    long node = 0;
+    if (good && *end == ',') {
+        const char *number = end + 1;
+        node = strtol(number, &end, 10);
+        good = end != number && node >= 1 && node <= ROOM_MAX_NODE;
+    }
+    if (!good || *end != '\0')
+        argp_error(state, "--genlock: found \"%s\", expected -1000 to 1000 ppm, and maybe a comma and a node", text);
+    return (house_signal_options_t){.on = true, .ppm = (int32_t)ppm, .node = (int32_t)node};
 }
 
 static picture_format_t read_format(struct argp_state *state, const char *name, const char *text)
@@ -69,6 +87,8 @@ static const struct argp_option run_options[] = {
     {"display", KEY_DISPLAY, "FORMAT", 0, "What the displays take besides xrgb8888, if anything: nv12 or yuyv", 0},
     {"rate", KEY_RATE, "HZ", 0,
      "Refresh rate of every board, in place of the room's (without either: the list's own up to 60, or 60)", 0},
+    {"genlock", KEY_GENLOCK, "PPM[,NODE]", 0,
+     "A house signal at the refresh rate, PPM faster, on the genlock input of every board, or of one", 0},
     {"original", KEY_ORIGINAL, "PNG", 0, "A finer original of the picture, to judge by as well", 0},
     {"judge", KEY_JUDGE, "N", 0, "Judge every Nth frame, 0 none (default: 8 frames of the run)", 0},
     {"kernels", KEY_KERNELS, "LEVEL", 0, "Pixel loops: scalar or neon, of the same bytes (default: the fastest)", 0},
@@ -108,6 +128,9 @@ static error_t read_run(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_RATE:
         run->rate_hz = read_rate(state, text);
+        return 0;
+    case KEY_GENLOCK:
+        run->house = read_genlock(state, text);
         return 0;
     case KEY_ORIGINAL:
         run->original = text;

@@ -174,6 +174,20 @@ run_agreement_t run_record_agreement(const run_record_t *record)
     return sum;
 }
 
+run_house_t run_record_house(const run_record_t *record)
+{
+    run_house_t sum = {.leader = record->frames > 0 ? record->frame[record->frames - 1].leader : 0};
+    for (int32_t n = 0; n < record->frames; n++) {
+        const run_frame_t *frame = &record->frame[n];
+        const int32_t size_us = abs(frame->house_off_us);
+        sum.frames += frame->housed;
+        sum.off_us_mean += size_us;
+        sum.off_us_most = size_us > sum.off_us_most ? size_us : sum.off_us_most;
+    }
+    sum.off_us_mean /= sum.frames > 0 ? sum.frames : 1;
+    return sum;
+}
+
 void run_pose_text(char text[RUN_POSE_TEXT_LENGTH], const pose_t *pose)
 {
     char mm[3][32];

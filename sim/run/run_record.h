@@ -21,6 +21,9 @@ typedef struct {
     int32_t bus_load_ppm; /**< since the frame before, or since the start */
     bool seen;            /**< a board has drawn for a pose: eye is that pose, and there are viewer pictures */
     pose_t eye;
+    uint8_t leader;       /**< node of the board that leads; 0: none */
+    bool housed;          /**< it has the house's genlock signal */
+    int32_t house_off_us; /**< the newest edge, less the begin of the refresh nearest to it; 0 without */
 } run_frame_t;
 
 /** What is measured in dB. The limit is what no method can beat. */
@@ -59,6 +62,14 @@ typedef struct {
     double db[RUN_DBS]; /**< means over the judged frames with a finite value; NAN where there is none */
 } run_board_sum_t;
 
+/** The house's genlock signal over the whole run. */
+typedef struct {
+    uint8_t leader; /**< of the last frame; 0: none */
+    int32_t frames; /**< in which the board that led had the signal */
+    double off_us_mean;
+    int32_t off_us_most; /**< sizes, from the edges to the begins of refreshes */
+} run_house_t;
+
 /** Add an empty frame and its walls. @return false when memory is out; nothing is added then. */
 bool run_record_add_frame(run_record_t *record);
 
@@ -79,6 +90,9 @@ typedef struct {
 } run_agreement_t;
 
 run_agreement_t run_record_agreement(const run_record_t *record);
+
+/** @return Who leads, and how far the house's genlock signal was. */
+run_house_t run_record_house(const run_record_t *record);
 
 /** @return The figures of one board, taken over all frames. */
 run_board_sum_t run_record_board(const run_record_t *record, int32_t board, const wall_t *wall);

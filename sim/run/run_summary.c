@@ -48,6 +48,20 @@ static void print_board(const run_summary_t *summary, int32_t index, FILE *file)
         fprintf(file, "  %7.1f\n", sum.latency_ms);
 }
 
+static void print_house(const run_house_t *house, FILE *file)
+{
+    fputs("\nhouse signal: ", file);
+    if (house->leader == 0)
+        fputs("nobody leads at the end", file);
+    else
+        fprintf(file, "board %u leads", (unsigned)house->leader);
+    if (house->frames > 0)
+        fprintf(file, "; refreshes began %.3f ms from its edges, at most %.3f", house->off_us_mean / 1e3,
+                house->off_us_most / 1e3);
+    else
+        fputs("; no board that led had it", file);
+}
+
 void run_summary_print(const run_summary_t *summary, FILE *file)
 {
     const room_t *room = summary->room;
@@ -71,5 +85,8 @@ void run_summary_print(const run_summary_t *summary, FILE *file)
             agreement.in_step, agreement.refreshes, agreement.differing);
     if (agreement.in_step > 0)
         fprintf(file, "; pose to photon %.1f ms, at most %.1f", agreement.latency_ms_mean, agreement.latency_ms_most);
+    const run_house_t house = run_record_house(summary->record);
+    if (summary->genlock)
+        print_house(&house, file);
     fprintf(file, "\npage: %s/index.html\n", summary->folder);
 }

@@ -22,6 +22,7 @@ typedef struct {
     bool real;                 /**< real time */
     int64_t skipped;           /**< refreshes that real time did not allow */
     int64_t poses_sent;        /**< by the simulated tracker */
+    bool genlock;              /**< there was a house signal */
     sim_bus_stats_t bus;
 } run_summary_t;
 

@@ -98,6 +98,10 @@ static bool plan(run_t *run)
                           "lasts %" PRId64 " frames at %.5g Hz, expected at most %d; --frames N makes the first N",
                           loop->frames, refresh_hz(run), SIM_RUN_MAX_FRAMES);
     loop->refresh.start_us += loop->start_us;
+    loop->house = (house_signal_t){.options = options->house, .refresh = loop->refresh};
+    if (options->house.node != 0 && room_board_with_node(&run->room, options->house.node) == NULL)
+        return file_error(run->error, options->room, "no board has node %d, which --genlock names",
+                          options->house.node);
     loop->judge_every = options->judge;
     if (options->judge == SIM_RUN_JUDGE_USUAL)
         loop->judge_every = loop->frames == INT64_MAX      ? JUDGED_WITHOUT_END
@@ -195,6 +199,7 @@ static bool tell(run_t *run)
         .rate_hz = refresh_hz(run),
         .real = is_real(run),
         .skipped = run->loop.skipped,
+        .genlock = options->house.on,
         .poses_sent = run->sender.sent,
         .bus = sim_bus_stats(sim_world_bus(run->world)),
     };

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <stdint.h>
 
+#include "sim/run/house_signal.h"
 #include "warp_fixed/kernels.h"
 #include "warp_fixed/method.h"
 #include "warp_fixed/picture.h"
@@ -23,9 +24,10 @@ typedef struct {
     const warp_kernels_t *kernels; /**< of every board; NULL for the fastest */
     picture_format_t camera;       /**< what the cameras deliver; any but GRAY8 */
     picture_format_t display;      /**< what the displays take besides XRGB8888: NV12, YUYV or XRGB8888 */
-    double rate_hz;       /**< refresh, in place of the room's; 0: the room's, else the list's up to 60 Hz, or 60 Hz */
-    const char *original; /**< PNG, q times as wide and high as the camera's picture; NULL for none */
-    int32_t judge;        /**< measure PSNR of every so many frames; 0 none; SIM_RUN_JUDGE_USUAL: 8 of the run */
+    double rate_hz; /**< refresh, in place of the room's; 0: the room's, else the list's up to 60 Hz, or 60 Hz */
+    house_signal_options_t house; /**< genlock */
+    const char *original;         /**< PNG, q times as wide and high as the camera's picture; NULL for none */
+    int32_t judge; /**< measure PSNR of every so many frames; 0 none; SIM_RUN_JUDGE_USUAL: 8 of the run */
 } sim_run_options_t;
 
 /**

@@ -115,6 +115,9 @@ test_refresh_rate() {
     run "$scratch/video.yaml" --video pattern --poses "$scratch/ten.csv" --out "$scratch/rate" --rate 50 &&
         grep -q "^16 frames at 50 Hz in virtual time" "$scratch/stdout"
     check "--rate is in its place" $?
+    run "$scratch/video.yaml" --video pattern --poses "$scratch/ten.csv" --out "$scratch/rate" --genlock -50,2 &&
+        grep -q "^house signal: nobody leads at the end; no board that led had it" "$scratch/stdout"
+    check "a run too short for a leader says so of its house signal" $?
     run "$scratch/video.yaml" --video pattern --bus 0 --frames 2 --out "$scratch/rate" &&
         grep -q "^2 frames at 59.94 Hz in real time" "$scratch/stdout"
     check "a live run has the room's refresh rate" $?
@@ -193,6 +196,10 @@ test_bad_runs() {
         refuses 2 "--rate: found \"$rate\", expected 1 to 240 Hz" "$@" --video pattern --poses "$scratch/ten.csv" \
             --rate $rate
     done
+    for genlock in x 1001 0, 0,64 0,1x; do
+        refuses 2 "--genlock: found \"$genlock\"" "$@" --video pattern --poses "$scratch/ten.csv" --genlock $genlock
+    done
+    refuses 1 "no board has node 9" "$@" --video pattern --poses "$scratch/ten.csv" --genlock 0,9
     refuses 2 "one room file" "$@" "$scratch/fd.yaml" --video pattern --poses "$scratch/ten.csv"
     refuses 2 "--nonsense" "$@" --nonsense
     refuses 2 "--camera: found \"gray8\"" "$@" --video pattern --poses "$scratch/ten.csv" --camera gray8
