@@ -190,6 +190,47 @@ static void test_delayed_ones_are_overtaken(void **state)
     assert_true(overtaken > 0);
 }
 
+/* One frame a microsecond is more than it can send: the pump is late, but what is due first still goes first. */
+static void test_a_late_pump_keeps_the_order(void **state)
+{
+    enum { LATE_FRAMES = 1500, DELAY = 1000 /* frames, and us */ };
+    static room_t room;
+    static char text[LATE_FRAMES * CANDUMP_TEXT_LENGTH];
+    const bus_faults_t faults = {.delay_ppm = MILLION / 10, .delay_ms = 1};
+    rng_t rng = {.state = 3};
+    bool late[LATE_FRAMES];
+    size_t length = 0;
+    for (int n = 0; n < LATE_FRAMES; n++) {
+        hal_can_frame_t frame = {
+            .time_us = n * 1000, .id = 0x110, .length = 2, .data = {(uint8_t)n, (uint8_t)(n >> 8)}};
+        bus_pump_counts_t counts = {.taken = 0};
+        length += candump_text_from_frame(text + length, &frame, "can3");
+        text[length++] = '\n';
+        (void)bus_pump_strike(&faults, &rng, &frame, &counts, &late[n]);
+    }
+    char path[SCRATCH_PATH_LENGTH], error[BUS_PUMP_MESSAGE_LENGTH];
+    bus_pump_counts_t counts;
+    scratch_path(*state, "long.log", path);
+    scratch_write(path, text, length);
+    open_room(&room);
+    const bus_pump_t settings = {
+        .bus = room.address, .log = path, .speed = 1000, .faults = faults, .seed = 3, .stop = &going_on};
+    assert_true(bus_pump(&settings, &counts, error));
+    close_room(&room);
+    assert_int_equal(room.count, LATE_FRAMES);
+    int heard = 0;
+    for (int due = 0; due < LATE_FRAMES + DELAY; due++) {
+        for (int kind = 0; kind < 2; kind++) {
+            const int n = kind == 0 ? due - DELAY : due; /* the delayed one was there first */
+            if (n < 0 || n >= LATE_FRAMES || late[n] != (kind == 0))
+                continue;
+            const uint8_t *data = room.heard[heard++].data;
+            if (data[0] + 256 * data[1] != n)
+                fail_msg("frame %d on the bus is number %d, expected %d", heard, data[0] + 256 * data[1], n);
+        }
+    }
+}
+
 static void test_chances_are_kept(void **state)
 {
     (void)state;
@@ -252,6 +293,7 @@ int main(void)
         cmocka_unit_test(test_dropped_all),
         cmocka_unit_test(test_duplicated_all),
         cmocka_unit_test(test_delayed_ones_are_overtaken),
+        cmocka_unit_test(test_a_late_pump_keeps_the_order),
         cmocka_unit_test(test_chances_are_kept),
         cmocka_unit_test(test_bad_logs_are_refused_with_their_line),
     };
