@@ -54,8 +54,11 @@ bool bus_flood_bus_off(const char *bus, char error[POSE_LINK_MESSAGE_LENGTH])
     const struct can_frame frame = {.can_id = CAN_ERR_FLAG | CAN_ERR_BUSOFF, .can_dlc = CAN_ERR_DLC};
     bool ok = false;
     if (link.socketcand || !is_virtual(link.socket, bus))
-        snprintf(error, POSE_LINK_MESSAGE_LENGTH,
-                 "%.60s: bus-off can be played on a virtual interface only; `ip link add vcan0 type vcan`", bus);
+        snprintf(
+            error, POSE_LINK_MESSAGE_LENGTH,
+            "%.40s: only a virtual interface can play bus-off: `modprobe vcan && ip link add vcan0 type vcan && ip "
+            "link set vcan0 up`, and --can vcan0 for the board; on a real bus connect CAN_H and CAN_L for a moment",
+            bus);
     else if (write(link.socket, &frame, sizeof frame) != (ssize_t)sizeof frame)
         snprintf(error, POSE_LINK_MESSAGE_LENGTH, "%.60s: %.100s", bus, strerror(errno));
     else

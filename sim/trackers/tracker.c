@@ -8,6 +8,8 @@
 static const double farthest = 1e9, length_tolerance = 0.01;
 static const int64_t latest_us = INT64_C(1) << 60;
 
+_Static_assert((int)TRACKER_MAX_POSES == 64, "said in a text");
+
 const char *const tracker_check_text[TRACKER_CHECKS] = {
     "good",
     "other message",
@@ -20,6 +22,7 @@ const char *const tracker_check_text[TRACKER_CHECKS] = {
     "repeated or late",
     "value out of range",
     "without position or orientation",
+    "beyond the first 64 bodies of a packet",
 };
 
 static bool position_is_sound(const double position[3])
@@ -51,9 +54,10 @@ void tracker_packet_add(tracker_packet_t *packet, const tracker_pose_t *pose)
         memcpy(added.quaternion, (const double[4]){1.0, 0.0, 0.0, 0.0}, sizeof added.quaternion);
     }
     const bool time_is_sound = !pose->timed || (pose->time_us >= 0 && pose->time_us <= latest_us);
-    if (packet->count < TRACKER_MAX_POSES && time_is_sound && position_is_sound(added.position) &&
-        make_unit(added.quaternion))
-        packet->pose[packet->count++] = added;
-    else
+    if (!time_is_sound || !position_is_sound(added.position) || !make_unit(added.quaternion))
         packet->left_out[TRACKER_VALUE]++;
+    else if (packet->count == TRACKER_MAX_POSES)
+        packet->left_out[TRACKER_CROWDED]++;
+    else
+        packet->pose[packet->count++] = added;
 }

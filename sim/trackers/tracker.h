@@ -23,6 +23,7 @@ typedef enum {
     TRACKER_REPEATED,   /**< the same again, or older than what has come */
     TRACKER_VALUE,      /**< a number is not finite or out of range, or the orientation is not one */
     TRACKER_INCOMPLETE, /**< a body without position or without orientation */
+    TRACKER_CROWDED,    /**< a sound body, but one more than TRACKER_MAX_POSES */
     TRACKER_CHECKS
 } tracker_check_t;
 
@@ -51,7 +52,7 @@ typedef struct {
  * made exactly that), time within its range. Of a lost body only the id and the time count: position and quaternion are
  * set to zero and identity.
  *
- * What is not sound, or beyond TRACKER_MAX_POSES, is counted in left_out[TRACKER_VALUE].
+ * What is not sound is counted in left_out[TRACKER_VALUE], what is beyond TRACKER_MAX_POSES in [TRACKER_CROWDED].
  */
 void tracker_packet_add(tracker_packet_t *packet, const tracker_pose_t *pose);
 

@@ -67,6 +67,7 @@ test_health() {
     pose_tool fault --bus "$bus" --flood 0.5
     [ $? -eq 0 ] && [ "$(sed -n 's/ frames sent$//p' "$scratch/stdout")" -gt 100 ]
     check "the bus is flooded" $?
+    refuses 1 "only a virtual interface can play bus-off: \`modprobe vcan" "$build/wallwarp-pose" fault --bus "$bus" --bus-off
     end_room
     grep -q ' can0 000#0000000000000000$' "$scratch/healthy/bus.log"
     check "the flood was on it" $?

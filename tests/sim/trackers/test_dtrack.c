@@ -154,7 +154,8 @@ static void test_more_bodies_than_there_is_room_for_are_counted(void **state)
     tracker_packet_t packet;
     assert_int_equal(decode(&packet, text), TRACKER_OK);
     assert_int_equal(packet.count, TRACKER_MAX_POSES);
-    assert_int_equal(packet.left_out[TRACKER_VALUE], 2);
+    assert_int_equal(packet.left_out[TRACKER_CROWDED], 2);
+    assert_int_equal(packet.left_out[TRACKER_VALUE], 0);
 }
 
 int main(void)
