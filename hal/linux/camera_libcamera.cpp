@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Video through libcamera: see the header. Nothing that is thrown leaves this file.
-#include "hal/linux/camera_libcamera.h"
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -24,7 +22,11 @@
 
 #include <libcamera/libcamera.h>
 
+extern "C" {
 #include "hal/linux/camera_clock.h"
+#include "hal/linux/camera_libcamera.h"
+#include "hal/linux/camera_unplugged.h"
+}
 
 namespace
 {
@@ -52,7 +54,7 @@ struct completed_t {
     std::mutex mutex;
     std::array<libcamera::Request *, CAMERA_BUFFERS_MAX> request;
     size_t count = 0;
-    bool gone = false;
+    bool gone = false; /* unplugged, as the library says */
 };
 
 struct device_t {
@@ -64,6 +66,7 @@ struct device_t {
     std::unique_ptr<libcamera::FrameBufferAllocator> allocator;
     std::vector<std::unique_ptr<libcamera::Request>> requests; /* by buffer; its number is the cookie */
     bool acquired = false, started = false;
+    bool stuck = false; /* unplugged, and the library does not know */
     picture_t picture;  /* without data */
     int64_t picture_us; /* when the last one came, or the device began */
 
@@ -294,7 +297,7 @@ void close_all(device_t &device)
         device.manager->stop();
     device.manager.reset();
     device.completed.count = 0;
-    device.completed.gone = false;
+    device.completed.gone = device.stuck = false;
 }
 
 const libcamera::FrameBuffer &buffer_of(const device_t &device, const libcamera::Request &request)
@@ -336,14 +339,13 @@ bool deliver(device_t &device, libcamera::Request &request)
     return older == CAMERA_NO_BUFFER || queue_again(device, older);
 }
 
+/* @return false when the camera failed. */
 bool serve_once(device_t &device)
 {
     std::array<libcamera::Request *, CAMERA_BUFFERS_MAX> completed;
     size_t count;
     {
         const std::lock_guard<std::mutex> lock(device.completed.mutex);
-        if (device.completed.gone)
-            return false;
         completed = device.completed.request;
         count = device.completed.count;
         device.completed.count = 0;
@@ -377,11 +379,27 @@ void *create(const camera_wanted_t *wanted)
     return made;
 }
 
+bool is_gone(device_t &device)
+{
+    const std::lock_guard<std::mutex> lock(device.completed.mutex);
+    return device.completed.gone;
+}
+
+/*
+ * The library ends the program when it stops a camera that is no longer there, unless its pipeline knows of unplugging:
+ * USB's alone does. Such a camera is left as it is.
+ */
 void close_device(void *source)
 {
     char error[HAL_BOARD_ERROR_LENGTH];
+    device_t &device = *static_cast<device_t *>(source);
     (void)guarded(error, [&] {
-        close_all(*static_cast<device_t *>(source));
+        if (device.stuck && !is_gone(device)) {
+            device.camera->requestCompleted.disconnect(&device);
+            device.camera->disconnected.disconnect(&device);
+        } else {
+            close_all(device);
+        }
         return true;
     });
 }
@@ -409,18 +427,29 @@ bool serve(void *source, char news[HAL_BOARD_ERROR_LENGTH])
     (void)poll(&waits, 1, poll_ms);
     camera_wake_clear(device.wanted.wake);
     return guarded(news, [&] {
-        if (!serve_once(device))
+        const bool good = device.stuck || serve_once(device);
+        const int64_t silent_us = camera_now_us() - device.picture_us;
+        if (is_gone(device))
             return camera_fail(news, "is gone; plug it in again");
-        return camera_now_us() - device.picture_us <= lost_us ||
+        device.stuck |= (!good || silent_us > 1000 * poll_ms) && camera_unplugged();
+        if (device.stuck) {
+            camera_exchange_withdraw(device.wanted.exchange);
+            return !camera_fail(news, "is gone, and libcamera can't have it back; restart this program");
+        }
+        if (!good)
+            return camera_fail(news, "failed; see `dmesg`");
+        return silent_us <= lost_us ||
                camera_fail(news, "gave no picture for %d s; see `dmesg`", static_cast<int>(lost_us / 1000000));
     });
 }
 
 void destroy(void *source)
 {
-    delete static_cast<device_t *>(source);
+    device_t *device = static_cast<device_t *>(source);
+    if (!device->stuck)
+        delete device;
 }
 
 } /* namespace */
 
-extern "C" const camera_source_t camera_libcamera = {create, open_device, serve, close_device, destroy};
+const camera_source_t camera_libcamera = {create, open_device, serve, close_device, destroy};

@@ -5,10 +5,6 @@
 
 #include "hal/linux/camera_source.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /**
  * libcamera:CAMERA, with its number in the list of `cam -l` counted from 0, its whole name there, or the model of its
  * sensor (imx219). HDMI receivers are not in that list: they are V4L2's (camera_v4l2.h).
@@ -16,19 +12,17 @@ extern "C" {
  * Built for libcamera 0.0.3 (Debian 12) and 0.4 (Debian 13); the compiler's headers decide. One such camera a process.
  *
  * The buffers are the library's DMABUFs, mapped once, and made to agree with the CPU's caches for each picture. The
- * library has threads of its own, made when the device is opened, and uses the heap for each request.
+ * library has threads of its own: two named as ours, which it makes when it is started, and those of its tracer
+ * (PROGRAM-ust). It uses the heap for each request.
  *
  * Times are of the sensor's first line (SensorTimestamp), on CLOCK_MONOTONIC (camera_stamp_us()).
  *
- * After a loss the whole library is started anew with each attempt to open, so that a camera is found again also on
- * systems without udev, whose messages the library's own list needs.
+ * After a loss the whole library is started anew with each attempt to open. A USB camera comes back when it is plugged
+ * in again; that needs udev, whose messages the library waits for. A sensor that fails while it runs stays lost until the
+ * program is started again, which is said once: libcamera (0.0.3) would end the program when it is closed.
  *
  * Messages of the library below errors are kept off stderr, unless LIBCAMERA_LOG_LEVELS is set.
  */
 extern const camera_source_t camera_libcamera;
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -11,10 +11,6 @@
 #include "hal/linux/camera_name.h"
 #include "hal/linux/camera_text.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /** What every source is given. */
 typedef struct {
     camera_name_t name;
@@ -53,9 +49,5 @@ static inline void camera_wake_clear(int wake)
     if (read(wake, &pokes, sizeof pokes) < 0)
         return; /* nobody poked */
 }
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

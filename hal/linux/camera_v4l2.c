@@ -138,6 +138,7 @@ static bool start(device_t *device, char error[HAL_BOARD_ERROR_LENGTH])
         stop(device);
         return false;
     }
+    error[0] = '\0'; /* of formats that did not fit */
     device->runs = true;
     device->picture_us = camera_now_us();
     return true;

@@ -134,9 +134,10 @@ camera_v4l2_got_t camera_v4l2_get(const camera_v4l2_buffers_t *buffers)
         return errno == EAGAIN ? CAMERA_V4L2_NONE : CAMERA_V4L2_LOST;
     const int buffer = (int)ask.of.index;
     const bool monotonic = (ask.of.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+    const int64_t now_us = camera_now_us(),
+                  stamp_us = (int64_t)ask.of.timestamp.tv_sec * 1000000 + ask.of.timestamp.tv_usec;
     hal_camera_frame_t frame = {
-        .capture_time_us =
-            monotonic ? (int64_t)ask.of.timestamp.tv_sec * 1000000 + ask.of.timestamp.tv_usec : camera_now_us(),
+        .capture_time_us = monotonic && stamp_us < now_us ? stamp_us : now_us,
         .sequence = ask.of.sequence,
     };
     if ((ask.of.flags & V4L2_BUF_FLAG_ERROR) != 0 || !place_picture(&frame.picture, buffers, &ask))

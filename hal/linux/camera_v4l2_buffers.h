@@ -38,8 +38,9 @@ typedef enum { CAMERA_V4L2_NONE, CAMERA_V4L2_PICTURE, CAMERA_V4L2_BROKEN, CAMERA
 /**
  * Take one filled buffer from the driver, without blocking, and hand it to the exchange.
  *
- * Its time is the driver's, of CLOCK_MONOTONIC, else now. Drivers mean the end of the picture unless they flag it as
- * the start; but those of CSI receivers stamp its start and flag nothing, so none is corrected here.
+ * Its time is the driver's when that is of CLOCK_MONOTONIC and past (vivid's may be a picture ahead), else now. Drivers
+ * mean the end of the picture unless they flag it as the start; but those of CSI receivers stamp its start and flag
+ * nothing, so none is corrected here.
  *
  * @return NONE: there is none; PICTURE; BROKEN: one with an error, or too short, given back to the driver;
  *         LOST: the device failed.
