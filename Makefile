@@ -30,7 +30,7 @@ CFLAGS := -std=c11 $(OPT) -g -Wall -Wextra -Werror -Wpedantic -Wshadow -Wconvers
           -Wpointer-arith -Wvla -Wformat=2 -Wundef -Wswitch-enum -Wdouble-promotion -Wnull-dereference \
           -fno-common -fstrict-aliasing
 CPPFLAGS := -I. -MMD -MP -D_GNU_SOURCE
-LDLIBS   := -Wl,--as-needed -lcyaml -lyaml -lpng -lz -ljansson -lcbor -llo -lm -lpthread
+LDLIBS   := -Wl,--as-needed -lcyaml -lyaml -lpng -lz -ljansson -lcbor -llo -lmbedcrypto -lm -lpthread
 
 # Another machine's programs see its headers and libraries in place of this one's.
 SYSROOT := $(if $(CROSS),build/sysroot)
@@ -156,8 +156,6 @@ $(BUILD)/tests/sim/pose/test_send_pose: $(BUILD)/tests/sim/pose/send_pose
 $(addprefix $(BUILD)/tests/hal/linux/test_display_kms_,frames dark): $(call objects,tests/hal/linux/kms_kernel.c)
 
 $(BUILD)/tests/firmware/test_frame_tag_jpeg: LDLIBS += -ljpeg
-$(addprefix $(BUILD)/tests/,firmware/test_can_auth firmware/test_can_auth_time firmware/test_can_auth_no_heap \
-    fuzz/fuzz_can_auth): LDLIBS += -lmbedcrypto
 
 # --- tests -----------------------------------------------------------------------------------------------------------
 

@@ -156,7 +156,7 @@ static void send_sync(bus_master_t *m, hal_can_t *can, int64_t now_us)
     m->due_us += CAN_SYNC_PERIOD_MS * 1000;
     if (m->due_us <= now_us)
         m->due_us = now_us + CAN_SYNC_PERIOD_MS * 1000;
-    m->sent = (bus_sync_t){.counter = m->counter};
+    m->sent = (bus_sync_t){.counter = m->counter, .origin = m->origin};
     m->counter = (uint8_t)((m->counter + 1) % CAN_E2E_P01_COUNTERS);
     const bool encoded = can_sync_encode(&frame, &sync);
     frame.own = true;
@@ -170,9 +170,12 @@ static void send_follow_up(bus_master_t *m, hal_can_t *can)
     const can_follow_up_t follow_up = {.number = m->number,
                                        .counter = m->sent.counter,
                                        .time_us = (uint64_t)bus_time_from_local(&m->time, m->sent.local_us)};
-    hal_can_frame_t frame;
+    const can_sync_t sync = {.number = m->number, .counter = m->sent.counter, .origin = m->sent.origin};
+    const bool encoded = can_sync_encode(&m->pair[0], &sync) && can_follow_up_encode(&m->pair[1], &follow_up);
+    const uint32_t unsent = m->unsent;
     m->sent_any = false;
-    send(m, can, can_follow_up_encode(&frame, &follow_up), &frame);
+    send(m, can, encoded, &m->pair[1]);
+    m->paired = m->unsent == unsent;
 }
 
 static void give_up(bus_master_t *m, int64_t now_us)
@@ -185,6 +188,7 @@ void bus_master_step(bus_master_t *m, hal_can_t *can, int64_t now_us)
 {
     const bool tracker = m->number == BUS_MASTER_TRACKER;
     const int64_t wait_us = tracker ? 0 : BUS_MASTER_SILENT_US + m->number * BUS_MASTER_STEP_US;
+    m->paired = false;
     if (m->own)
         bus_time_keep(&m->time, now_us);
     if ((m->own || m->claiming) && now_us - m->sent_us > BUS_MASTER_SILENT_US)

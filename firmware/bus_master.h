@@ -64,9 +64,11 @@ typedef struct {
     bool on_its_way; /**< a Sync of its own has been queued; sent.local_us is not known yet */
     bool sent_any;   /**< its last bit was sent at sent.local_us: the FollowUp is due */
     bus_sync_t sent;
-    int64_t sent_us;    /**< the newest Sync that got out, or when it began to claim */
-    bool claimed;       /**< a Sync has got out since then: */
-    int64_t claimed_us; /**< the first */
+    int64_t sent_us;         /**< the newest Sync that got out, or when it began to claim */
+    bool paired;             /**< a FollowUp was sent in the newest step: */
+    hal_can_frame_t pair[2]; /**< its Sync, and it; what bus_auth_sign() signs */
+    bool claimed;            /**< a Sync has got out since then: */
+    int64_t claimed_us;      /**< the first */
 } bus_master_t;
 
 /**

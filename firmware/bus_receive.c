@@ -13,7 +13,7 @@ static void leave_bus_off(const bus_receivers_t *to, hal_can_t *can)
         to->faults->io++;
 }
 
-static void take(const bus_receivers_t *to, const hal_can_frame_t *frame)
+static void hand_on(const bus_receivers_t *to, const hal_can_frame_t *frame)
 {
     can_check_t check = to->time == NULL ? CAN_CHECK_OTHER : bus_master_hear(to->time, frame);
     if (check == CAN_CHECK_OTHER && to->clock != NULL)
@@ -23,6 +23,18 @@ static void take(const bus_receivers_t *to, const hal_can_frame_t *frame)
     if (check != CAN_CHECK_OTHER || pose_from_frame(to->poses, to->time, frame, to->faults) || to->commands == NULL)
         return;
     (void)isotp_take(to->commands, frame, frame->time_us);
+}
+
+static void take(const bus_receivers_t *to, const hal_can_frame_t *frame)
+{
+    hal_can_frame_t believed[CAN_AUTH_MAX_FRAMES];
+    if (to->auth == NULL || to->auth->auth == NULL) {
+        hand_on(to, frame);
+        return;
+    }
+    const int frames = bus_auth_take(to->auth, frame, believed, to->faults);
+    for (int i = 0; i < frames; i++)
+        hand_on(to, &believed[i]);
 }
 
 void bus_receive(const bus_receivers_t *to, hal_can_t *can)

@@ -3,6 +3,7 @@
 #ifndef FIRMWARE_BUS_RECEIVE_H
 #define FIRMWARE_BUS_RECEIVE_H
 
+#include "firmware/bus_auth.h"
 #include "firmware/bus_master.h"
 #include "firmware/frame_clock.h"
 #include "firmware/isotp.h"
@@ -18,6 +19,7 @@ typedef struct {
     frame_clock_t *clock; /**< NULL: FrameClock is ignored; else time is not NULL */
     isotp_t *commands;    /**< NULL: requests are ignored */
     can_faults_t *faults; /**< counted up */
+    bus_auth_t *auth;     /**< says which frames are believed; NULL: all are */
 } bus_receivers_t;
 
 /**

@@ -208,3 +208,13 @@ bool can_auth_check_command(can_auth_t *auth, const can_auth_command_t *command,
     uint8_t right[CAN_AUTH_COMMAND_BYTES];
     return can_auth_sign_command(auth, command, right) && mbedtls_ct_memcmp(right, code, sizeof right) == 0;
 }
+
+bool can_auth_random(can_auth_t *auth, uint64_t seed, uint64_t count, uint64_t *number)
+{
+    const can_auth_command_t nothing = {CAN_AUTH_RANDOM_ID, NULL, 0, seed};
+    uint8_t mac[CAN_AUTH_MAC_BYTES];
+    if (!make_code(auth, &nothing, count, mac))
+        return false;
+    *number = get_number(mac, (int)sizeof *number);
+    return true;
+}

@@ -2,8 +2,7 @@
 // Authentication of messages on the bus: AES-CMAC (NIST SP 800-38B, RFC 4493), truncated, with freshness. A room
 // without a key has none of this.
 //
-// Nothing uses it yet: boards and senders make and check no codes, no program loads a key, and the command `session`
-// below is not one of command.h.
+// A board's part in it: bus_auth.h.
 //
 // One 128-bit key for the room (hal_key.h) makes and checks all codes. A code is over one string of bytes; numbers
 // here have their lowest byte first:
@@ -16,10 +15,13 @@
 //
 // Of the code's 16 bytes the first ones travel:
 //
-//   FD frame   48 bytes: the message's own 32, then freshness in 6, then 10 bytes of the code
+//   FD frame   48 bytes: the message's own 32, then freshness in 6, then 10 bytes of the code. It travels with the
+//              identifier 0x104 + viewer in place of 0x100 + viewer, which the code is over: a DBC file gives an
+//              identifier one length
 //   classic    one more frame of 8 bytes behind the message's: the lowest 3 bytes of the freshness, then 5 bytes of the
 //              code. A pose set's has the identifier 0x113 + 4 viewer; that of Sync and FollowUp, which are one
-//              message of two frames, 0x0C0 + number of the sender
+//              message of two frames, 0x0C0 + number of the sender; FrameClock's 0x180 + node: a message of one frame,
+//              or of two while a change is announced, that of the epoch to come first; Latency's 0x580 + node
 //   command    8 bytes of the code behind the request (command.h); its identifier is that of the board's link, 0x600 +
 //              node, its session a random number that the board has just given for this one request, its freshness 0
 //
@@ -47,13 +49,17 @@
 
 enum {
     CAN_AUTH_MAC_BYTES = 16,
-    CAN_AUTH_COMMAND_BYTES = 8,  /**< of the code behind a command */
-    CAN_AUTH_MAX_COMMAND = 504,  /**< bytes of a command without it */
-    CAN_AUTH_MAX_FRAMES = 3,     /**< of a classic message */
-    CAN_AUTH_FD_PLAIN = 32,      /**< bytes of an FD message without authentication, */
-    CAN_AUTH_FD_SIGNED = 48,     /**< and with it */
-    CAN_AUTH_ID_TIME = 0x0C0,    /**< + number: behind Sync and FollowUp */
-    CAN_AUTH_ID_POSE_SET = 0x113 /**< + 4 * viewer: behind a pose set */
+    CAN_AUTH_COMMAND_BYTES = 8,      /**< of the code behind a command */
+    CAN_AUTH_MAX_COMMAND = 504,      /**< bytes of a command without it */
+    CAN_AUTH_MAX_FRAMES = 3,         /**< of a classic message */
+    CAN_AUTH_FD_PLAIN = 32,          /**< bytes of an FD message without authentication, */
+    CAN_AUTH_FD_SIGNED = 48,         /**< and with it */
+    CAN_AUTH_ID_POSE_FD = 0x104,     /**< + viewer: an FD pose with its code */
+    CAN_AUTH_ID_TIME = 0x0C0,        /**< + number: behind Sync and FollowUp */
+    CAN_AUTH_ID_POSE_SET = 0x113,    /**< + 4 * viewer: behind a pose set */
+    CAN_AUTH_ID_FRAME_CLOCK = 0x180, /**< + node: behind FrameClock */
+    CAN_AUTH_ID_LATENCY = 0x580,     /**< + node: behind Latency */
+    CAN_AUTH_RANDOM_ID = 0xFFFF      /**< no message has it */
 };
 
 typedef struct can_auth can_auth_t;
@@ -147,5 +153,14 @@ bool can_auth_sign_command(can_auth_t *auth, const can_auth_command_t *command, 
 /** @return Is it the command's code? The nonce is used up, whatever the answer. */
 bool can_auth_check_command(can_auth_t *auth, const can_auth_command_t *command,
                             const uint8_t code[CAN_AUTH_COMMAND_BYTES]);
+
+/**
+ * A number that nobody without the key can guess: the first 8 bytes of the code of no data with CAN_AUTH_RANDOM_ID, the
+ * seed as session and the count as freshness.
+ *
+ * @param[out] number  Written only when true is returned.
+ * @return false when the library refuses.
+ */
+bool can_auth_random(can_auth_t *auth, uint64_t seed, uint64_t count, uint64_t *number);
 
 #endif

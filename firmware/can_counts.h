@@ -6,7 +6,7 @@
 #include "firmware/can_protocol.h"
 
 enum {
-    CAN_ID_COUNTS = 0x580, /**< + node */
+    CAN_ID_COUNTS = 0x5C0, /**< + node */
     CAN_COUNTS_PERIOD_MS = 1000
 };
 

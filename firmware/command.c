@@ -7,7 +7,7 @@
 #include "firmware/byte_order.h"
 
 static const char reboot_text[] = "reboot";
-enum { REBOOT_LENGTH = sizeof reboot_text - 1, NUMBER_LENGTH = 4 };
+enum { REBOOT_LENGTH = sizeof reboot_text - 1, NUMBER_LENGTH = 4, SESSION_LENGTH = 16, TIME_BITS = 48 };
 
 static int put_text(uint8_t *bytes, const char *text)
 {
@@ -41,7 +41,12 @@ int command_encode(uint8_t bytes[COMMAND_MAX_BYTES], const command_t *command)
         return 1 + put_text(values, reboot_text);
     case COMMAND_LOG:
         return 1 + put_number(values, command->first_event);
+    case COMMAND_SESSION:
+        put_u64(values, command->session);
+        put_u64(values + 8, command->bus_time_us);
+        return 1 + SESSION_LENGTH;
     case COMMAND_HELLO:
+    case COMMAND_NONCE:
         break;
     }
     return 1;
@@ -72,12 +77,24 @@ static command_result_t read_number(uint32_t *value, const uint8_t *bytes, int l
     return COMMAND_OK;
 }
 
+static command_result_t read_session(command_t *command, const uint8_t *bytes, int length)
+{
+    if (length != SESSION_LENGTH || get_u64(bytes + 8) >> TIME_BITS != 0)
+        return COMMAND_BAD_VALUE;
+    command->session = get_u64(bytes);
+    command->bus_time_us = get_u64(bytes + 8);
+    return COMMAND_OK;
+}
+
 static command_result_t read_values(command_t *command, const uint8_t *values, int length)
 {
     uint8_t small = 0;
     command_result_t result = COMMAND_UNKNOWN;
     switch (command->kind) {
+    case COMMAND_SESSION:
+        return read_session(command, values, length);
     case COMMAND_HELLO:
+    case COMMAND_NONCE:
         return length == 0 ? COMMAND_OK : COMMAND_BAD_VALUE;
     case COMMAND_METHOD:
         return read_method(&command->method, values, length);
@@ -126,6 +143,8 @@ uint8_t command_argument(const command_t *command)
     case COMMAND_HELLO:
     case COMMAND_REBOOT:
     case COMMAND_LOG:
+    case COMMAND_NONCE:
+    case COMMAND_SESSION:
         break;
     }
     return 0;

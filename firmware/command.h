@@ -15,6 +15,13 @@
 // |                                    | the least (4) and the most (4) that all boards can have alike  |
 // | 6 reboot: the text "reboot"        |                                                                |
 // | 7 log: first event (4)             | first event (4), then EVENT_BYTES for each, up to 50           |
+// | 8 nonce                            | a random number (8), for one request within 2 s                |
+// | 9 session (8), bus time in us (8)  |                                                                |
+//
+// A board without a key does not know 8 and 9. A board with one wants 8 bytes more behind every request but `nonce`:
+// its code (can_auth.h). The number in it is used up by the request, whatever comes of it; a board keeps one, and gives
+// whoever asks next another. So who hears COMMAND_REFUSED, or no reply, begins again with `nonce`: every request may be
+// done twice.
 #ifndef FIRMWARE_COMMAND_H
 #define FIRMWARE_COMMAND_H
 
@@ -26,7 +33,7 @@
 enum {
     CAN_ID_COMMAND = 0x600,   /**< + node: ISO-TP frames to a board */
     CAN_ID_REPLY = 0x640,     /**< + node: and from it */
-    COMMAND_MAX_BYTES = 64,   /**< of a request */
+    COMMAND_MAX_BYTES = 64,   /**< of a request, with its code */
     COMMAND_REPLY_FLAG = 128, /**< in a reply's number */
     COMMAND_REPLY_BYTES = 512,
     COMMAND_MOST_EVENTS = 50,
@@ -41,14 +48,16 @@ typedef enum {
     COMMAND_PATTERN = 4,
     COMMAND_LATENCY = 5,
     COMMAND_REBOOT = 6,
-    COMMAND_LOG = 7
+    COMMAND_LOG = 7,
+    COMMAND_NONCE = 8,
+    COMMAND_SESSION = 9
 } command_kind_t;
 
 typedef enum {
     COMMAND_OK = 0,
     COMMAND_UNKNOWN = 1,   /**< no such command */
     COMMAND_BAD_VALUE = 2, /**< of a wrong length, or a value that is not a legal one */
-    COMMAND_REFUSED = 3,   /**< not allowed: its code (can_auth.h) is missing or wrong; no board has a key yet */
+    COMMAND_REFUSED = 3,   /**< not allowed: its code (can_auth.h) is missing or wrong */
     COMMAND_IMPOSSIBLE = 4 /**< this board cannot do it now */
 } command_result_t;
 
@@ -68,6 +77,8 @@ typedef struct {
     command_pattern_t pattern;
     uint32_t latency_us; /**< up to COMMAND_MOST_LATENCY_US; see frame_latency.h */
     uint32_t first_event;
+    uint64_t session;     /**< COMMAND_SESSION */
+    uint64_t bus_time_us; /**< when it begins, less than 2^48 */
 } command_t;
 
 /** @return Bytes of the request. */

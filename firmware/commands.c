@@ -9,7 +9,7 @@
 #include "firmware/projector.h"
 #include "firmware/version.h"
 
-enum { HEADER_BYTES = 2, NUMBER_BYTES = 4, LOG_BYTES = HEADER_BYTES + NUMBER_BYTES };
+enum { HEADER_BYTES = 2, NUMBER_BYTES = 4, NONCE_BYTES = 8, LOG_BYTES = HEADER_BYTES + NUMBER_BYTES };
 
 _Static_assert(LOG_BYTES + COMMAND_MOST_EVENTS * EVENT_BYTES <= COMMAND_REPLY_BYTES, "a reply holds these events");
 _Static_assert((int)COMMAND_REPLY_BYTES <= (int)ISOTP_MAX_LENGTH, "a reply is one message");
@@ -66,15 +66,19 @@ static command_result_t execute(projector_t *p, const command_t *command, int64_
     case COMMAND_REBOOT:
         c->reboot = true;
         break;
+    case COMMAND_SESSION:
+        bus_auth_begin_session(&p->auth, command->session, command->bus_time_us, now_us);
+        break;
     case COMMAND_HELLO:
     case COMMAND_LOG:
+    case COMMAND_NONCE:
         break;
     }
     return COMMAND_OK;
 }
 
 /* What was asked for. @return Bytes, after the header. */
-static int put_answer(const projector_t *p, const command_t *command, uint8_t *bytes, int64_t now_us)
+static int put_answer(projector_t *p, const command_t *command, uint8_t *bytes, int64_t now_us)
 {
     frame_latency_t latency;
     uint32_t first = command->first_event;
@@ -93,10 +97,14 @@ static int put_answer(const projector_t *p, const command_t *command, uint8_t *b
         events = event_log_pack(&p->events.log, bytes + NUMBER_BYTES, &first, COMMAND_MOST_EVENTS);
         put_u32(bytes, first);
         return NUMBER_BYTES + EVENT_BYTES * events;
+    case COMMAND_NONCE:
+        put_u64(bytes, bus_auth_give_nonce(&p->auth, now_us));
+        return NONCE_BYTES;
     case COMMAND_METHOD:
     case COMMAND_FREEZE:
     case COMMAND_PATTERN:
     case COMMAND_REBOOT:
+    case COMMAND_SESSION:
         break;
     }
     return 0;
@@ -113,12 +121,29 @@ static int put_reason(const projector_t *p, const command_t *command, uint8_t *b
     return 2 * NUMBER_BYTES;
 }
 
+/* The request without its code, where there must be one. */
+static command_result_t read_request(projector_t *p, command_t *command, const uint8_t *request, int length,
+                                     int64_t now_us)
+{
+    const bool of_key = command->kind == COMMAND_NONCE || command->kind == COMMAND_SESSION;
+    if (p->auth.auth == NULL && of_key)
+        return COMMAND_UNKNOWN;
+    if (p->auth.auth != NULL && command->kind != COMMAND_NONCE) {
+        length = bus_auth_check_command(&p->auth, p->commands.link.receive_id, request, length, now_us);
+        if (length == 0) {
+            p->can_faults.auth_commands++;
+            return COMMAND_REFUSED;
+        }
+    }
+    return command_decode(command, request, length);
+}
+
 /* @return Bytes of the reply. */
 static int answer(projector_t *p, uint8_t reply[COMMAND_REPLY_BYTES], const uint8_t *request, int length,
                   int64_t now_us)
 {
     command_t command = {.kind = (command_kind_t)request[0]};
-    command_result_t result = command_decode(&command, request, length);
+    command_result_t result = read_request(p, &command, request, length, now_us);
     if (result == COMMAND_OK)
         result = execute(p, &command, now_us);
     event_watch_command(p, &command, result, now_us);

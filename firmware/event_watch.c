@@ -38,8 +38,8 @@ void event_watch_step(projector_t *p, int64_t now_us)
 
 void event_watch_command(projector_t *p, const command_t *command, command_result_t result, int64_t now_us)
 {
-    const bool asks = command->kind == COMMAND_HELLO || command->kind == COMMAND_LOG;
-    const bool read = result != COMMAND_UNKNOWN && result != COMMAND_BAD_VALUE;
+    const bool asks = command->kind == COMMAND_HELLO || command->kind == COMMAND_LOG || command->kind == COMMAND_NONCE;
+    const bool read = result == COMMAND_OK || result == COMMAND_IMPOSSIBLE;
     const int32_t argument = read ? command_argument(command) : 0;
     if (!asks || result != COMMAND_OK)
         add(p, EVENT_COMMAND, (int32_t)command->kind + EVENT_RESULT * (int32_t)result + EVENT_ARGUMENT * argument,

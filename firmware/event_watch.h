@@ -27,7 +27,7 @@ void event_watch_init(event_watch_t *watch, int32_t node);
 void event_watch_step(projector_t *projector, int64_t now_us);
 
 /**
- * Log a request, but not one that only asks (hello, log) and is answered.
+ * Log a request, but not one that only asks (hello, log, nonce) and is answered.
  *
  * @param command  Its kind may be unknown.
  */

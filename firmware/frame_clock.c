@@ -254,6 +254,7 @@ frame_step_t frame_clock_step(frame_clock_t *clock, hal_can_t *can, const frame_
         .wanted_ms = (uint32_t)blank->wanted_ms,
     };
     room_latency_note(&clock->room, &own, blank->now_us);
+    clock->said = 0;
     clock->proven = is_proven(clock, blank->now_us);
     frame_lead_decide(clock, blank);
     frame_step_t step = find_step(clock, blank);

@@ -103,6 +103,9 @@ typedef struct {
     uint32_t changes; /**< of the leader, after the first one */
     uint32_t missed;  /**< changes of the epoch that were noticed only when they held already */
 
+    hal_can_frame_t say[2]; /**< announcements sent in the newest step: what bus_auth_sign() signs, */
+    int said;               /**< and how many */
+
     int64_t begun_us;       /**< the module's own from here on: when it began to listen, on the board's clock */
     int64_t quiet_since_us; /**< nobody has led since */
     int64_t proven_us;      /**< newest announcement heard, or own one that got out */

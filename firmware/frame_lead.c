@@ -128,6 +128,7 @@ static bool send(frame_clock_t *clock, hal_can_t *can, const frame_epoch_t *epoc
     if (hal_can_send(can, &frame) != HAL_OK)
         return false;
     clock->counter = (uint8_t)((clock->counter + 1) % CAN_E2E_P01_COUNTERS);
+    clock->say[clock->said++] = frame; /* at most two a step */
     return true;
 }
 

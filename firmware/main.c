@@ -5,9 +5,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "firmware/auth_key.h"
 #include "firmware/projector.h"
 #include "firmware/room.h"
 #include "hal/hal_board.h"
+#include "hal/hal_random.h"
 
 enum {
     FAILED = 1,
@@ -17,6 +19,7 @@ enum {
     KEY_DISPLAY,
     KEY_KERNELS,
     KEY_WORKERS,
+    KEY_KEY,
     KEY_CHECK,
     KEY_OFF
 };
@@ -24,16 +27,24 @@ enum {
 typedef struct {
     enum { RUN, CHECK, OFF } task;
     const char *room; /**< NULL: not given */
+    const char *key;  /**< file; NULL: the room has none */
     int32_t node;     /**< 0: not given */
     board_table_t devices;
     const warp_kernels_t *kernels;
 } options_t;
+
+/* What the projector needs of it. */
+typedef struct {
+    can_auth_t *auth;
+    uint64_t seed;
+} room_key_t;
 
 static const struct argp_option option_table[] = {
     {"node", 'n', "N", 0, "Node number of this board in the room file; needed", 0},
     {"can", KEY_CAN, "NAME", 0, "Bus, in place of the board's own", 0},
     {"camera", KEY_CAMERA, "NAME", 0, "Video source, in place of the board's own", 0},
     {"display", KEY_DISPLAY, "NAME", 0, "Display, in place of the board's own", 0},
+    {"key", KEY_KEY, "FILE", 0, auth_key_help, 0},
     {"kernels", KEY_KERNELS, "LEVEL", 0, "Pixel loops: scalar or neon, of the same bytes (default: the fastest)", 0},
     {"workers", KEY_WORKERS, "N", 0, "Threads that make a picture together, 1 to 4, in place of the board's own", 0},
     {"check", KEY_CHECK, NULL, 0, "Say what of the board is there and what is missing, change nothing, and end", 1},
@@ -77,6 +88,9 @@ static error_t read_option(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_DISPLAY:
         options->devices.display = text;
+        return 0;
+    case KEY_KEY:
+        options->key = text;
         return 0;
     case KEY_KERNELS:
         options->kernels = warp_kernels_from_name(text);
@@ -180,11 +194,26 @@ static int switch_off(const options_t *options)
     return FAILED;
 }
 
-static void run(const room_t *room, const room_board_t *board, const hal_board_t *devices,
+/* NULL without a key. @return false when there is to be one and cannot be; said. */
+static bool open_key(room_key_t *key, const char *path)
+{
+    char error[HAL_KEY_ERROR_LENGTH] = "no random numbers from the system";
+    *key = (room_key_t){.auth = NULL};
+    if (path == NULL)
+        return true;
+    if (hal_random(&key->seed) == HAL_OK)
+        key->auth = auth_key_open(path, error);
+    if (key->auth == NULL)
+        fprintf(stderr, "wallwarp: --key: %s\n", error);
+    return key->auth != NULL;
+}
+
+static void run(const room_t *room, const room_board_t *board, const hal_board_t *devices, const room_key_t *key,
                 const warp_kernels_t *kernels)
 {
     static projector_t projector;
     projector_init(&projector, room, board, devices, kernels);
+    projector_use_key(&projector, key->auth, key->seed);
     while (!stop_requested) {
         projector_step(&projector);
         if (hal_display_wait_vblank(devices->display) != HAL_OK) {
@@ -219,11 +248,17 @@ int main(int argc, char **argv)
         fprintf(stderr, "wallwarp: %s\n", error);
         return FAILED;
     }
-    if (!open_board(&devices, &options, &room, board))
+    room_key_t key;
+    if (!open_key(&key, options.key))
         return FAILED;
+    if (!open_board(&devices, &options, &room, board)) {
+        can_auth_close(key.auth);
+        return FAILED;
+    }
     signal(SIGINT, request_stop);
     signal(SIGTERM, request_stop);
-    run(&room, board, &devices, options.kernels);
+    run(&room, board, &devices, &key, options.kernels);
     hal_board_close(&devices);
+    can_auth_close(key.auth);
     return 0;
 }

@@ -176,9 +176,15 @@ bool pose_from_frame(can_poses_t *poses, const bus_master_t *time, const hal_can
     return take_fd(poses, time, frame, faults) || take_part(poses, time, frame, faults);
 }
 
+uint32_t can_faults_refused(const can_faults_t *faults)
+{
+    return faults->auth_unsigned + faults->auth_forged + faults->auth_replayed + faults->auth_stale +
+           faults->auth_early + faults->auth_commands;
+}
+
 uint32_t can_faults_total(const can_faults_t *faults)
 {
     return faults->length + faults->crc + faults->counter_invalid + faults->counter_lost + faults->duplicate +
            faults->stale + faults->sender_restart + faults->incomplete_set + faults->bad_pose + faults->io +
-           faults->overrun + faults->bus_off;
+           faults->overrun + faults->bus_off + can_faults_refused(faults);
 }

@@ -38,6 +38,12 @@ typedef struct {
     uint32_t tracking_lost; /**< good frames in which the tracker says that it has lost the viewer */
     uint32_t io;            /**< failures of the CAN driver */
     uint32_t overrun;       /**< calls that took BUS_RECEIVE_FRAMES: the controller may have dropped some */
+    uint32_t auth_unsigned; /**< with a key: messages that came without a code: refused */
+    uint32_t auth_forged;   /**< whose code is not of this key and session */
+    uint32_t auth_replayed; /**< whose code is right, and which had come before, or newer ones */
+    uint32_t auth_stale;    /**< which were held back */
+    uint32_t auth_early;    /**< which say that they were made later than now */
+    uint32_t auth_commands; /**< commands whose code is missing or wrong */
     uint32_t bus_off;       /**< calls that found the controller bus-off; each orders a restart */
 } can_faults_t;
 
@@ -85,6 +91,9 @@ bool pose_from_frame(can_poses_t *poses, const bus_master_t *time, const hal_can
 
 /** Count what a decoder has found. */
 void can_faults_count(can_faults_t *faults, can_check_t check);
+
+/** @return The sum of the counters auth_..., modulo 2^32. */
+uint32_t can_faults_refused(const can_faults_t *faults);
 
 /** @return The sum of all counters but tracking_lost, modulo 2^32: the figure of the status message. */
 uint32_t can_faults_total(const can_faults_t *faults);

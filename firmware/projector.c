@@ -31,6 +31,7 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
     projector->wall = board->wall;
     projector->kernels = kernels;
     projector->poses = (can_poses_t){.viewer = board->viewer};
+    bus_auth_init(&projector->auth, NULL, board->viewer, 0);
     bus_master_init(&projector->time, (uint8_t)board->node, hal_time_now_us(devices->clock));
     projector->picture_us = hal_time_now_us(devices->clock);
     const frame_choice_settings_t settings = {
@@ -63,6 +64,11 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
     projector_begin_ladder(projector);
     commands_init(&projector->commands, board->node, room->latency_ms);
     event_watch_init(&projector->events, board->node);
+}
+
+void projector_use_key(projector_t *projector, can_auth_t *key, uint64_t seed)
+{
+    bus_auth_init(&projector->auth, key, projector->poses.viewer, seed);
 }
 
 void projector_begin_ladder(projector_t *projector)
@@ -276,15 +282,18 @@ void projector_step(projector_t *p)
 {
     const int64_t now_us = end_stage(p, STAGE_WAIT, p->shown_us);
     drive(p, HAL_GPIO_STROBE, true);
-    const bus_receivers_t receivers = {&p->poses, &p->time, &p->choice.clock, &p->commands.link, &p->can_faults};
+    const bus_receivers_t receivers = {&p->poses,         &p->time,       &p->choice.clock,
+                                       &p->commands.link, &p->can_faults, &p->auth};
     bus_receive(&receivers, p->board.can); /* bus -> checked poses, bus time, numbers of refreshes, requests */
-    bus_master_step(&p->time, p->board.can, now_us); /* bus time -> bus, when it is this board's turn */
-    commands_step(p, now_us);                        /* requests -> what is shown from now on, replies */
+    if (bus_auth_may_speak(&p->auth))
+        bus_master_step(&p->time, p->board.can, now_us); /* bus time -> bus, when it is this board's turn */
+    commands_step(p, now_us);                            /* requests -> what is shown from now on, replies */
     const int64_t blank_us = newest_blank_us(p);
     take_newest_picture(p, now_us, blank_us); /* camera -> newest picture, or the last good one */
     p->faults.gpio += !frame_choice_take_edges(&p->choice, p->board.gpio);
     p->choice.wanted_ms = p->commands.wanted_latency_ms;
     frame_choice_step(&p->choice, &p->poses, &p->time, p->board.can, p->board.camera, blank_us);
+    bus_auth_sign(&p->auth, &p->time, &p->choice.clock, p->board.can, now_us); /* with a key: codes -> bus */
     take_newest_picture(p, now_us, blank_us); /* when there was no room for it before */
     p->report.state = state_now(p, now_us);
     const int64_t posed_us = end_stage(p, STAGE_POSE, now_us);

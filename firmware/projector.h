@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "firmware/bus_auth.h"
 #include "firmware/can_protocol.h"
 #include "firmware/commands.h"
 #include "firmware/degrade.h"
@@ -63,6 +64,7 @@ struct projector {
     const warp_kernels_t *kernels;
 
     can_poses_t poses;
+    bus_auth_t auth;       /**< what of it is believed */
     bus_master_t time;     /**< of the bus */
     frame_choice_t choice; /**< the picture and the pose of this refresh */
     int64_t picture_us;    /**< when it was taken; at first the start of the loop */
@@ -94,6 +96,14 @@ struct projector {
  */
 void projector_init(projector_t *projector, const room_t *room, const room_board_t *board, const hal_board_t *devices,
                     const warp_kernels_t *kernels);
+
+/**
+ * Believe only who has the room's key, from the first step on (bus_auth.h). Without this call every frame is believed.
+ *
+ * @param key   Must outlive the projector. NULL: none.
+ * @param seed  Random, another one at every start.
+ */
+void projector_use_key(projector_t *projector, can_auth_t *key, uint64_t seed);
 
 /** Never take a cheaper method, however late the pictures: where time passes that is not the board's, in a simulation.
  */

@@ -39,6 +39,8 @@ static uint32_t fault_flags(projector_t *p, int64_t now_us)
     flags |= flag_if_new(&t->seen_gpio, p->faults.gpio, CAN_FAULT_GPIO);
     flags |= flag_if_new(&t->seen_watchdog, p->faults.watchdog, CAN_FAULT_WATCHDOG);
     flags |= flag_if_new(&t->seen_deadline, p->faults.deadline, CAN_FAULT_DEADLINE);
+    flags |= flag_if_new(&t->seen_refused, can_faults_refused(&p->can_faults), CAN_FAULT_REFUSED);
+    flags |= bus_auth_wants_session(&p->auth, now_us) ? (uint32_t)CAN_FAULT_SESSION : 0;
     return flags;
 }
 
@@ -175,7 +177,7 @@ void telemetry_add_photon(telemetry_t *telemetry, int32_t pose_to_photon_us)
     telemetry->photons++;
 }
 
-static void send_latency(projector_t *p)
+static void send_latency(projector_t *p, int64_t now_us)
 {
     telemetry_t *t = &p->telemetry;
     const frame_choice_t *choice = &p->choice;
@@ -197,6 +199,7 @@ static void send_latency(projector_t *p)
     t->photons = 0;
     hal_can_frame_t frame;
     send(p, can_latency_encode(&frame, &latency), &frame);
+    p->faults.can_send += !bus_auth_sign_latency(&p->auth, &p->time.time, &frame, p->board.can, now_us);
 }
 
 static void send_counts(projector_t *p)
@@ -239,9 +242,9 @@ void telemetry_send(projector_t *projector, int64_t now_us)
         t->time_due_us = now_us + CAN_TIME_PERIOD_MS * 1000;
         send_time(projector, now_us);
     }
-    if (now_us >= t->latency_due_us) {
+    if (now_us >= t->latency_due_us && bus_auth_may_speak(&projector->auth)) {
         t->latency_due_us = now_us + CAN_LATENCY_PERIOD_MS * 1000;
-        send_latency(projector);
+        send_latency(projector, now_us);
     }
     if (now_us >= t->counts_due_us) {
         t->counts_due_us = now_us + CAN_COUNTS_PERIOD_MS * 1000;

@@ -20,7 +20,7 @@ typedef struct {
     stage_figures_t figures; /**< of the second that is being sent */
     int64_t photon_sum_us;   /**< pose to photon of the pictures since the last Latency, */
     int32_t photons;         /**< so many */
-    uint32_t seen_bus, seen_bus_off, seen_display, seen_gpio, seen_watchdog, seen_deadline;
+    uint32_t seen_bus, seen_bus_off, seen_display, seen_gpio, seen_watchdog, seen_deadline, seen_refused;
 } telemetry_t;
 
 /** Start to count from now on; the first messages are due at once, those of the stages after the first second. */

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contract of the room's secret key: read once at start, from where nobody else can read it. For can_auth.h; no program
-// reads one yet.
+// Contract of the room's secret key: read once at start, from where nobody else can read it. What it is for:
+// can_auth.h.
 #ifndef HAL_HAL_KEY_H
 #define HAL_HAL_KEY_H
 

@@ -8,13 +8,15 @@
 #include "firmware/can_protocol.h"
 #include "sim/devices/sim_clock.h"
 
-enum { HEADER_BYTES = 2, NUMBER_BYTES = 4, WAIT_MS = 1 };
+enum { HEADER_BYTES = 2, NUMBER_BYTES = 4, NONCE_BYTES = 8, WAIT_MS = 1 };
 
 static void ask(board_talk_t *talk, int64_t now_us)
 {
+    static const command_t nonce = {.kind = COMMAND_NONCE};
     uint8_t bytes[COMMAND_MAX_BYTES];
     isotp_init(&talk->link, CAN_ID_REPLY + (uint32_t)talk->node, CAN_ID_COMMAND + (uint32_t)talk->node);
-    (void)isotp_send(&talk->link, bytes, command_encode(bytes, &talk->request), now_us);
+    (void)isotp_send(&talk->link, bytes, command_encode(bytes, talk->auth == NULL ? &talk->request : &nonce), now_us);
+    talk->coded = false;
     talk->tries++;
     talk->heard_us = now_us;
 }
@@ -32,6 +34,23 @@ static void ask_next(board_talk_t *talk, int count, int64_t quiet_us)
     }
 }
 
+/* The board has given a number, or knows of none. */
+static void take_nonce(board_talk_t *talk, const uint8_t *reply, int length, int64_t now_us)
+{
+    uint8_t bytes[COMMAND_MAX_BYTES + CAN_AUTH_COMMAND_BYTES];
+    if (length < HEADER_BYTES || reply[0] != (COMMAND_NONCE | COMMAND_REPLY_FLAG))
+        return;
+    if (reply[1] != COMMAND_OK || length != HEADER_BYTES + NONCE_BYTES) {
+        talk->replied = talk->keyless = true;
+        talk->result = COMMAND_UNKNOWN;
+        return;
+    }
+    const int plain = command_encode(bytes, &talk->request);
+    const can_auth_command_t command = {talk->link.send_id, bytes, plain, get_u64(reply + HEADER_BYTES)};
+    if (can_auth_sign_command(talk->auth, &command, bytes + plain))
+        talk->coded = isotp_send(&talk->link, bytes, plain + CAN_AUTH_COMMAND_BYTES, now_us);
+}
+
 /* A reply to someone else's request is not ours; nor is a late one to a request for earlier events. */
 static bool is_ours(const board_talk_t *talk, const uint8_t *bytes, int length)
 {
@@ -41,11 +60,18 @@ static bool is_ours(const board_talk_t *talk, const uint8_t *bytes, int length)
            get_u32(bytes + HEADER_BYTES) >= talk->request.first_event;
 }
 
-static void take_reply(board_talk_t *talk)
+static void take_reply(board_talk_t *talk, int64_t now_us)
 {
     const uint8_t *bytes;
     const int length = isotp_received(&talk->link, &bytes);
-    if (length > 0 && is_ours(talk, bytes, length)) {
+    const bool coding = talk->auth != NULL && !talk->coded;
+    if (coding) {
+        take_nonce(talk, bytes, length, now_us);
+    } else if (length > 0 && is_ours(talk, bytes, length) && bytes[1] == COMMAND_REFUSED && talk->auth != NULL &&
+               talk->tries < BOARD_TALK_TRIES) {
+        ask(talk, now_us);
+        return;
+    } else if (length > 0 && is_ours(talk, bytes, length)) {
         talk->replied = true;
         talk->result = bytes[1];
         talk->length = length - HEADER_BYTES;
@@ -74,7 +100,7 @@ static void take_frame(board_talk_t *talk, int count, const hal_can_frame_t *fra
             continue;
         talk[i].heard_us = now_us;
         talk[i].answering = true;
-        take_reply(&talk[i]);
+        take_reply(&talk[i], now_us);
     }
 }
 
@@ -91,7 +117,7 @@ bool board_talk(pose_link_t *bus, board_talk_t *talk, int count, int64_t quiet_u
                 char error[POSE_LINK_MESSAGE_LENGTH])
 {
     for (int i = 0; i < count; i++)
-        talk[i] = (board_talk_t){.node = talk[i].node, .request = talk[i].request};
+        talk[i] = (board_talk_t){.node = talk[i].node, .request = talk[i].request, .auth = talk[i].auth};
     while (!all_settled(talk, count, quiet_us) && !*stop) {
         ask_next(talk, count, quiet_us);
         if (!send_due(bus, talk, count, error))

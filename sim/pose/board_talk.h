@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "firmware/can_auth.h"
 #include "firmware/command.h"
 #include "firmware/isotp.h"
 #include "sim/pose/pose_link.h"
@@ -17,15 +18,19 @@ enum { BOARD_TALK_TRIES = 3 };
 typedef struct {
     uint8_t node; /**< 1 to CAN_MAX_NODE */
     command_t request;
-    int tries;      /**< how often it was asked: more than once when it, or a frame of either message, was not heard */
-    bool alive;     /**< its heartbeat was heard meanwhile, */
-    bool answering; /**< and frames of a reply, maybe not a whole one */
-    bool replied;   /**< the rest means something: */
-    uint8_t result; /**< a command_result_t, or a newer one */
-    int length;     /**< bytes of the answer behind it */
+    can_auth_t *auth; /**< for the codes behind requests; NULL: none are sent */
+    int tries;        /**< how often it was asked: more than once when it, or a frame of either message, was not heard,
+                           or another has asked it for a number meanwhile */
+    bool alive;       /**< its heartbeat was heard meanwhile, */
+    bool answering;   /**< and frames of a reply, maybe not a whole one */
+    bool replied;     /**< the rest means something: */
+    bool keyless;     /**< with auth: the board has no key, and has done nothing */
+    uint8_t result;   /**< a command_result_t, or a newer one */
+    int length;       /**< bytes of the answer behind it */
     uint8_t answer[COMMAND_REPLY_BYTES];
 
     isotp_t link; /**< the module's own from here on */
+    bool coded;   /**< the request is sent; else, with auth, `nonce` is */
     int64_t heard_us;
 } board_talk_t;
 
@@ -35,8 +40,11 @@ typedef struct {
  * A board that is silent for so long is asked again: the whole request, BOARD_TALK_TRIES times in all. None does more
  * when it is heard twice. A board that waits for a lost frame of ours is silent for up to ISOTP_TIMEOUT_US.
  *
+ * With auth a board is asked for a number first. A code that is refused counts as silence: another may have asked for
+ * a number meanwhile.
+ *
  * @param         bus       Listening.
- * @param[in,out] talk      node and request are read, the rest is written. Each node once.
+ * @param[in,out] talk      node, request and auth are read, the rest is written. Each node once.
  * @param         quiet_us  How long a board may be silent; ISOTP_TIMEOUT_US in all its tries, or more.
  * @param         stop      Ends it when it becomes non-zero.
  * @param[out]    error     On failure: one line without newline.

@@ -28,8 +28,10 @@ static bool send_poses(bridge_run_t *run, const can_pose_t *message, int count, 
                        char error[POSE_LINK_MESSAGE_LENGTH])
 {
     for (int i = 0; i < count; i++) {
-        hal_can_frame_t frame[CAN_POSE_PARTS];
-        const int frames = pose_frames(frame, &message[i], run->fd, next[message[i].viewer]);
+        hal_can_frame_t frame[POSE_AUTH_FRAMES];
+        const int plain = pose_frames(frame, &message[i], run->fd, next[message[i].viewer]);
+        const int frames =
+            pose_auth_sign_pose(run->auth, frame, plain, message[i].viewer, (uint64_t)sim_clock_monotonic_us());
         if (frames == 0) {
             run->bridge->counts.too_far++;
             continue;
@@ -69,6 +71,11 @@ static bool turn(bridge_run_t *run, sync_send_t *sync, uint64_t next[CAN_VIEWERS
         const int64_t due_ms = (sync->due_us - sim_clock_monotonic_us()) / 1000 + 1;
         wait_ms = due_ms < 0 ? 0 : due_ms < LOOK_MS ? due_ms : LOOK_MS;
     }
+    if (run->auth != NULL) {
+        if (!pose_auth_turn(run->auth, error))
+            return false;
+        wait_ms = wait_ms < POSE_AUTH_TURN_US / 1000 ? wait_ms : POSE_AUTH_TURN_US / 1000;
+    }
     struct pollfd tracker = {.fd = run->listener, .events = POLLIN};
     return poll(&tracker, 1, (int)wait_ms) <= 0 || take_packet(run, next, error);
 }
@@ -77,7 +84,7 @@ bool bridge_run(bridge_run_t *run, char error[POSE_LINK_MESSAGE_LENGTH])
 {
     const int64_t start_us = sim_clock_monotonic_us();
     int64_t now_us = start_us, shown_us = start_us;
-    sync_send_t sync = {.due_us = 0};
+    sync_send_t sync = {.auth = run->auth};
     uint64_t next[CAN_VIEWERS];
     /* A bridge started twice is not taken for a repetition. */
     for (int v = 0; v < CAN_VIEWERS; v++)

@@ -6,6 +6,7 @@
 #include <signal.h>
 
 #include "sim/pose/bridge.h"
+#include "sim/pose/pose_auth.h"
 #include "sim/pose/pose_link.h"
 
 typedef struct {
@@ -14,6 +15,7 @@ typedef struct {
     int listener;                      /**< of udp_listen_open() */
     bool fd;                           /**< one CAN FD frame a pose, else a set of three classic frames */
     bool sync;                         /**< give bus time, so that boards can use the capture times */
+    pose_auth_t *auth;                 /**< signs; sync is then true. NULL: no key */
     bool show_progress;                /**< write a line about it to stderr every second */
     int64_t duration_us;               /**< ends after that; 0 for never */
     const volatile sig_atomic_t *stop; /**< ends when it becomes non-zero; looked at every 100 ms */

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "firmware/can_auth.h"
 #include "firmware/command.h"
 #include "sim/bus/sim_can_bits.h"
 
@@ -230,6 +231,27 @@ static bool is_command(const hal_can_frame_t *frame)
     return !frame->extended && node != 0 && (base == CAN_ID_COMMAND || base == CAN_ID_REPLY);
 }
 
+/* A code behind a message, which only who knows key and session could judge. */
+static bool is_code(const hal_can_frame_t *frame)
+{
+    const uint32_t node = frame->id & CAN_MAX_NODE, base = frame->id - node;
+    const uint32_t set = frame->id - CAN_AUTH_ID_POSE_SET;
+    return !frame->extended && (base == CAN_AUTH_ID_TIME || base == CAN_AUTH_ID_FRAME_CLOCK ||
+                                base == CAN_AUTH_ID_LATENCY || (set % 4 == 0 && set / 4 < CAN_VIEWERS));
+}
+
+/* A signed FD pose as it is without its code. */
+static hal_can_frame_t plain_frame(const hal_can_frame_t *frame)
+{
+    hal_can_frame_t plain = *frame;
+    const bool coded = !frame->extended && frame->id - CAN_AUTH_ID_POSE_FD < CAN_VIEWERS;
+    if (coded && frame->fd && frame->length == CAN_AUTH_FD_SIGNED) {
+        plain.id -= CAN_AUTH_ID_POSE_FD - CAN_ID_POSE_FD;
+        plain.length = CAN_AUTH_FD_PLAIN;
+    }
+    return plain;
+}
+
 void bus_watch_take(bus_watch_t *watch, const hal_can_frame_t *frame)
 {
     if (watch->frames == 0) {
@@ -239,12 +261,13 @@ void bus_watch_take(bus_watch_t *watch, const hal_can_frame_t *frame)
     watch->frames++;
     watch->last_us = frame->time_us;
     note_load(watch, frame);
+    const hal_can_frame_t plain = plain_frame(frame);
     for (int v = 0; v < CAN_VIEWERS; v++)
-        if (take_pose(&watch->viewer[v], &watch->clock, frame))
+        if (take_pose(&watch->viewer[v], &watch->clock, &plain))
             return;
     can_check_t check = take_report(watch, frame);
     if (check == CAN_CHECK_OTHER)
         check = take_time(watch, frame);
-    watch->unknown += check == CAN_CHECK_OTHER && !is_command(frame);
+    watch->unknown += check == CAN_CHECK_OTHER && !is_command(frame) && !is_code(frame);
     watch->damaged += check != CAN_CHECK_OTHER && check != CAN_CHECK_OK;
 }

@@ -6,19 +6,20 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "firmware/auth_key.h"
 #include "sim/pose/bridge_run.h"
 #include "sim/pose/command_options.h"
 #include "sim/pose/commands.h"
 #include "sim/pose/udp_listen.h"
 #include "sim/program.h"
 
-enum { KEY_NO_SYNC = 256 };
+enum { KEY_NO_SYNC = 256, KEY_KEY };
 
 static const char program[] = "wallwarp-pose bridge";
 
 typedef struct {
     const tracker_protocol_t *protocol;
-    const char *bus, *transform, *listen, *interface;
+    const char *bus, *transform, *listen, *interface, *key;
     int64_t duration_us; /* 0: without end */
     bool fd, no_sync;
 } options_t;
@@ -38,6 +39,7 @@ static void check(struct argp_state *state, options_t *options)
     if (options->protocol == NULL)
         argp_error(state, "the protocol is missing");
     command_check_fd(state, options->bus, options->fd);
+    command_check_key(state, options->key, options->no_sync);
     if (options->transform == NULL)
         argp_error(state, "--transform is missing");
     if (options->listen == NULL)
@@ -55,6 +57,9 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         return 0;
     case 'f':
         options->fd = true;
+        return 0;
+    case KEY_KEY:
+        options->key = argument;
         return 0;
     case KEY_NO_SYNC:
         options->no_sync = true;
@@ -100,7 +105,10 @@ static int run_bridge(const options_t *options, bridge_t *bridge, pose_link_t *l
                         .show_progress = isatty(STDERR_FILENO),
                         .duration_us = options->duration_us,
                         .stop = command_catch_stop()};
+    if (!command_open_key(program, options->key, options->bus, &run.auth))
+        return PROGRAM_FAILED;
     const bool good = bridge_run(&run, error);
+    pose_auth_close(run.auth);
     printf("%" PRIu64 " packets, %" PRIu64 " poses sent to %s\n", bridge->counts.packets, run.sent, options->bus);
     bridge_counts_print(stdout, &bridge->counts);
     const int status = program_finish(program);
@@ -138,6 +146,7 @@ int command_bridge(int argc, char **argv)
         {"listen", 'l', "ADDR:PORT", 0, "Where packets arrive; a multicast address is joined", 0},
         {"interface", 'i', "ADDR", 0, "Join on the network interface of this address", 0},
         {"no-sync", KEY_NO_SYNC, NULL, 0, "Leave it to another to give the time of the bus (Sync and FollowUp)", 0},
+        {"key", KEY_KEY, "FILE", 0, auth_key_help, 0},
         {"seconds", 's', "S", 0, "End after S seconds, instead of on SIGINT", 0},
         {0},
     };

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "firmware/auth_key.h"
 #include "firmware/byte_order.h"
 #include "firmware/can_protocol.h"
 #include "sim/pose/board_talk.h"
@@ -15,10 +16,10 @@
 #include "sim/pose/request_text.h"
 #include "sim/program.h"
 
-enum { KEY_ALL = 256, QUIET_US = 1000000, ROLL_CALL_US = 500000, NUMBER_BYTES = 4, HELLO_BYTES = 5 };
+enum { KEY_ALL = 256, KEY_KEY, QUIET_US = 1000000, ROLL_CALL_US = 500000, NUMBER_BYTES = 4, HELLO_BYTES = 5 };
 
 typedef struct {
-    const char *bus, *name, *value;
+    const char *bus, *name, *value, *key;
     int node; /**< 0: all */
     bool node_given, whole_log;
     command_t request;
@@ -29,6 +30,7 @@ typedef struct {
     const char *program;
     const volatile sig_atomic_t *stop;
     pose_link_t link;
+    can_auth_t *auth;
     board_talk_t talk[CAN_MAX_NODE];
     int boards;
     bool some_missing; /* a board is there that did not answer the roll call */
@@ -61,6 +63,9 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         options->node = 0;
         if (strcmp(argument, "all") != 0)
             options->node = (int)command_whole(state, "--node", argument, 1, CAN_MAX_NODE);
+        return 0;
+    case KEY_KEY:
+        options->key = argument;
         return 0;
     case KEY_ALL:
         options->whole_log = true;
@@ -111,6 +116,8 @@ static bool is_done(const session_t *session, const board_talk_t *talk)
 {
     if (!talk->replied)
         return say_silent(session, talk);
+    if (talk->keyless)
+        return say(session, talk->node, "has no key; leave --key out");
     if (talk->tries > 1)
         fprintf(stderr, "%s: board %d had to be asked %d times; are frames lost? See `wallwarp-pose check`\n",
                 session->program, talk->node, talk->tries);
@@ -130,6 +137,8 @@ static bool is_done(const session_t *session, const board_talk_t *talk)
 static bool ask(session_t *session, int64_t quiet_us)
 {
     char error[POSE_LINK_MESSAGE_LENGTH];
+    for (int i = 0; i < session->boards; i++)
+        session->talk[i].auth = session->auth;
     if (board_talk(&session->link, session->talk, session->boards, quiet_us, session->stop, error))
         return true;
     fprintf(stderr, "%s: %s\n", session->program, error);
@@ -176,6 +185,8 @@ static void print_answer(const board_talk_t *talk)
     case COMMAND_FREEZE:
     case COMMAND_PATTERN:
     case COMMAND_LOG:
+    case COMMAND_NONCE:
+    case COMMAND_SESSION:
         printf("board %d: done\n", talk->node);
         break;
     }
@@ -257,11 +268,21 @@ static bool tell(session_t *session, const options_t *options)
     return done;
 }
 
+static bool open_key(session_t *session, const char *file)
+{
+    char error[HAL_KEY_ERROR_LENGTH];
+    session->auth = file == NULL ? NULL : auth_key_open(file, error);
+    if (file != NULL && session->auth == NULL)
+        fprintf(stderr, "%s: --key: %s\n", session->program, error);
+    return file == NULL || session->auth != NULL;
+}
+
 int command_command(int argc, char **argv)
 {
     static const struct argp_option option_table[] = {
         {"bus", 'b', "BUS", 0, command_bus_help, 0},
         {"node", 'n', "N", 0, "Which board: its node number, or all; needed", 0},
+        {"key", KEY_KEY, "FILE", 0, "The room's key: boards with one do only what who has the same one tells them", 0},
         {"all", KEY_ALL, NULL, 0, "log: all events that the board keeps, not only the newest 50", 0},
         {0},
     };
@@ -290,8 +311,11 @@ int command_command(int argc, char **argv)
     argp_parse(&argp, argc, argv, 0, NULL, &options);
     session.program = argv[0];
     session.stop = command_catch_stop();
+    if (!open_key(&session, options.key))
+        return PROGRAM_FAILED;
     if (!pose_link_open(&session.link, options.bus, false, error)) {
         fprintf(stderr, "%s: %s\n", argv[0], error);
+        can_auth_close(session.auth);
         return PROGRAM_FAILED;
     }
     bool done = pose_link_listen(&session.link, error);
@@ -300,6 +324,7 @@ int command_command(int argc, char **argv)
     else
         fprintf(stderr, "%s: %s\n", argv[0], error);
     pose_link_close(&session.link);
+    can_auth_close(session.auth);
     const int status = program_finish(argv[0]);
     return done ? status : PROGRAM_FAILED;
 }

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -62,4 +63,22 @@ const volatile sig_atomic_t *command_catch_stop(void)
     signal(SIGINT, request_stop);
     signal(SIGTERM, request_stop);
     return &stop_requested;
+}
+
+void command_check_key(struct argp_state *state, const char *key, bool no_sync)
+{
+    if (key != NULL && no_sync)
+        argp_error(state, "--no-sync: boards with a key believe times of the sender's own clock, which it must give");
+}
+
+bool command_open_key(const char *program, const char *key, const char *bus, pose_auth_t **auth)
+{
+    char error[HAL_KEY_ERROR_LENGTH];
+    *auth = NULL;
+    if (key == NULL)
+        return true;
+    *auth = pose_auth_open(key, bus, error);
+    if (*auth == NULL)
+        fprintf(stderr, "%s: --key: %s\n", program, error);
+    return *auth != NULL;
 }

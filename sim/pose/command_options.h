@@ -7,6 +7,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "sim/pose/pose_auth.h"
+
 static const char command_bus_help[] =
     "A SocketCAN interface such as can0, or HOST:PORT of a simulator (wallwarp-sim run --bus PORT)";
 
@@ -24,5 +26,17 @@ long command_whole(struct argp_state *state, const char *option, const char *tex
 
 /** @return Seconds as us: 0.001 to 10^6 s. */
 int64_t command_seconds_us(struct argp_state *state, const char *option, const char *text);
+
+/** Check that who signs also gives bus time. @param key  Of the option --key, or NULL. */
+void command_check_key(struct argp_state *state, const char *key, bool no_sync);
+
+/**
+ * Open what a sender with a key needs.
+ *
+ * @param      key   File, or NULL: nothing is done.
+ * @param[out] auth  For pose_auth_close(); NULL without a key.
+ * @return false when that failed, and is said.
+ */
+bool command_open_key(const char *program, const char *key, const char *bus, pose_auth_t **auth);
 
 #endif

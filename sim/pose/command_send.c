@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "firmware/auth_key.h"
 #include "firmware/can_protocol.h"
 #include "sim/pose/command_options.h"
 #include "sim/pose/commands.h"
@@ -13,12 +14,12 @@
 #include "sim/pose/pose_text.h"
 #include "sim/program.h"
 
-enum { LONG_LIST_US = 2000000, MOST_TRACKER = 15, KEY_SEED = 256, KEY_NO_SYNC };
+enum { LONG_LIST_US = 2000000, MOST_TRACKER = 15, KEY_SEED = 256, KEY_NO_SYNC, KEY_KEY };
 
 static const char program[] = "wallwarp-pose send";
 
 typedef struct {
-    const char *bus, *source;
+    const char *bus, *source, *key;
     const char *motion_option; /* one that is for motions only, or NULL */
     bool is_motion, fd, no_sync;
     uint8_t viewer, tracker;
@@ -60,6 +61,7 @@ static error_t parse_motion(int key, char *argument, struct argp_state *state)
 static void check(struct argp_state *state, options_t *options)
 {
     command_check_fd(state, options->bus, options->fd);
+    command_check_key(state, options->key, options->no_sync);
     if (options->source == NULL)
         argp_error(state, "the pose list or the motion is missing");
     for (int m = 0; m < MOTIONS; m++) {
@@ -83,6 +85,9 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         return 0;
     case 'f':
         options->fd = true;
+        return 0;
+    case KEY_KEY:
+        options->key = argument;
         return 0;
     case KEY_NO_SYNC:
         options->no_sync = true;
@@ -133,8 +138,12 @@ static int send_list(const options_t *options, const pose_list_t *list)
     send.show_progress = isatty(STDERR_FILENO) && is_long(list);
     send.sync = !options->no_sync;
     size_t sent = 0;
-    const bool ok = pose_send_list(&link, &send, &sent, error);
+    const bool opened = command_open_key(program, options->key, options->bus, &send.auth);
+    const bool ok = opened && pose_send_list(&link, &send, &sent, error);
+    pose_auth_close(send.auth);
     pose_link_close(&link);
+    if (!opened)
+        return PROGRAM_FAILED;
     if (!ok)
         return fail("", error);
     if (sent < list->count) {
@@ -152,6 +161,7 @@ int command_send(int argc, char **argv)
         {"fd", 'f', NULL, 0,
          "One CAN FD frame of 32 bytes per pose, instead of three classic frames; not with HOST:PORT", 0},
         {"no-sync", KEY_NO_SYNC, NULL, 0, "Leave it to another to give the time of the bus (Sync and FollowUp)", 0},
+        {"key", KEY_KEY, "FILE", 0, auth_key_help, 0},
         {"viewer", 'v', "N", 0, "Whose pose it is, 0 to 3 (0)", 0},
         {"tracker", 't', "N", 0, "Which tracker measured it, 0 to 15 (0); with --fd", 0},
         {NULL, 0, NULL, 0, "For a motion:", 1},

@@ -13,7 +13,8 @@ enum { MS_PER_S = 1000, FLAGS = 16 };
 
 void event_fault_names(char names[FAULT_NAMES_LENGTH], uint32_t flags)
 {
-    static const char *const known[] = {"bus", "bus-off", "camera", "display", "GPIO", "watchdog", "deadline"};
+    static const char *const known[] = {"bus",      "bus-off",  "camera",  "display",   "GPIO",
+                                        "watchdog", "deadline", "refused", "no session"};
     names[0] = '\0';
     for (size_t bit = 0; bit < FLAGS; bit++) {
         const size_t used = strlen(names);
@@ -34,8 +35,8 @@ static void command_text(char value[FAULT_NAMES_LENGTH], uint32_t packed)
     const uint8_t kind = (uint8_t)packed, result = (uint8_t)(packed / EVENT_RESULT);
     char argument[REQUEST_ARGUMENT_LENGTH];
     request_argument_text(argument, kind, (uint8_t)(packed / EVENT_ARGUMENT));
-    snprintf(value, FAULT_NAMES_LENGTH, "%s%s: %s", request_name(kind), result == COMMAND_BAD_VALUE ? "" : argument,
-             request_result_name(result));
+    snprintf(value, FAULT_NAMES_LENGTH, "%s%s: %s", request_name(kind),
+             result == COMMAND_OK || result == COMMAND_IMPOSSIBLE ? argument : "", request_result_name(result));
 }
 
 static void value_text(char value[FAULT_NAMES_LENGTH], const event_t *event)

@@ -11,16 +11,24 @@
 
 enum { PROGRESS_EVERY_US = 250000, LONGEST_SLEEP_US = 100000, NS_PER_US = 1000, US_PER_S = 1000000 };
 
-/* In short sleeps: a signal between the look at stop and the sleep would be slept over. */
-static void sleep_until_us(int64_t time_us, const volatile sig_atomic_t *stop)
+/* Two heartbeats of every board. */
+enum { ANNOUNCE_US = 2 * CAN_HEARTBEAT_PERIOD_MS * 1000 };
+
+/* In short sleeps: a signal between the look at stop and the sleep would be slept over, and boards want their session.
+ * @return false when the link failed. */
+static bool sleep_until_us(int64_t time_us, const pose_send_t *send, char error[POSE_LINK_MESSAGE_LENGTH])
 {
+    const int64_t longest_us = send->auth == NULL ? LONGEST_SLEEP_US : POSE_AUTH_TURN_US;
     int64_t now_us = sim_clock_monotonic_us();
-    for (; now_us < time_us && !*stop; now_us = sim_clock_monotonic_us()) {
-        const int64_t end_us = time_us - now_us > LONGEST_SLEEP_US ? now_us + LONGEST_SLEEP_US : time_us;
+    for (; now_us < time_us && !*send->stop; now_us = sim_clock_monotonic_us()) {
+        const int64_t end_us = time_us - now_us > longest_us ? now_us + longest_us : time_us;
         const struct timespec when = {.tv_sec = (time_t)(end_us / US_PER_S),
                                       .tv_nsec = (long)(end_us % US_PER_S) * NS_PER_US};
         (void)clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &when, NULL);
+        if (send->auth != NULL && !pose_auth_turn(send->auth, error))
+            return false;
     }
+    return true;
 }
 
 /* Sleep until then, and give bus time meanwhile. @return false when the link failed. */
@@ -28,15 +36,13 @@ static bool wait_until_us(int64_t time_us, pose_link_t *link, const pose_send_t 
                           char error[POSE_LINK_MESSAGE_LENGTH])
 {
     while (send->sync && !*send->stop && sync->due_us <= time_us) {
-        sleep_until_us(sync->due_us, send->stop);
-        if (!*send->stop && !sync_send(sync, link, error))
+        if (!sleep_until_us(sync->due_us, send, error) || (!*send->stop && !sync_send(sync, link, error)))
             return false;
     }
-    sleep_until_us(time_us, send->stop);
-    return true;
+    return sleep_until_us(time_us, send, error);
 }
 
-static int encode(hal_can_frame_t frame[CAN_POSE_PARTS], const pose_t *pose, const pose_send_t *send, int64_t time_us,
+static int encode(hal_can_frame_t frame[POSE_AUTH_FRAMES], const pose_t *pose, const pose_send_t *send, int64_t time_us,
                   uint64_t number)
 {
     const can_pose_t message = {.pose = *pose,
@@ -50,7 +56,7 @@ static int encode(hal_can_frame_t frame[CAN_POSE_PARTS], const pose_t *pose, con
 bool pose_send_check(const pose_send_t *send, char error[POSE_LINK_MESSAGE_LENGTH])
 {
     const pose_list_t *list = send->list;
-    hal_can_frame_t frame[CAN_POSE_PARTS];
+    hal_can_frame_t frame[POSE_AUTH_FRAMES];
     for (size_t i = 0; i < list->count; i++) {
         if (encode(frame, &list->entry[i].pose, send, 0, 0) > 0)
             continue;
@@ -72,11 +78,11 @@ static void show(size_t sent, const pose_list_t *list, int64_t since_us)
 bool pose_send_list(pose_link_t *link, const pose_send_t *send, size_t *sent, char error[POSE_LINK_MESSAGE_LENGTH])
 {
     const pose_list_t *list = send->list;
-    sync_send_t sync = {.due_us = 0};
+    sync_send_t sync = {.auth = send->auth};
     *sent = 0;
     if (send->sync && !sync_send_begin(&sync, link, error))
         return false;
-    const int64_t start_us = sim_clock_monotonic_us();
+    const int64_t start_us = sim_clock_monotonic_us() + (send->auth == NULL ? 0 : ANNOUNCE_US);
     int64_t shown_us = start_us;
     for (; *sent < list->count; ++*sent) {
         const pose_list_entry_t *entry = &list->entry[*sent];
@@ -85,8 +91,9 @@ bool pose_send_list(pose_link_t *link, const pose_send_t *send, size_t *sent, ch
         if (*send->stop)
             break;
         const int64_t time_us = sim_clock_monotonic_us();
-        hal_can_frame_t frame[CAN_POSE_PARTS];
-        const int frames = encode(frame, &entry->pose, send, time_us, (uint64_t)start_us + *sent);
+        hal_can_frame_t frame[POSE_AUTH_FRAMES];
+        const int plain = encode(frame, &entry->pose, send, time_us, (uint64_t)start_us + *sent);
+        const int frames = pose_auth_sign_pose(send->auth, frame, plain, send->viewer, (uint64_t)time_us);
         if (!pose_link_send(link, frame, frames, error))
             return false;
         if (send->show_progress && time_us - shown_us >= PROGRESS_EVERY_US) {

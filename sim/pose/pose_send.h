@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "sim/pose/pose_auth.h"
 #include "sim/pose/pose_link.h"
 #include "sim/pose/pose_list.h"
 
@@ -20,6 +21,7 @@ typedef struct {
     bool show_progress;                /**< write a line about it to stderr now and then */
     const volatile sig_atomic_t *stop; /**< when it becomes non-zero, no further pose is sent; looked at every 100 ms */
     bool sync;                         /**< give bus time, so that boards can use the capture times */
+    pose_auth_t *auth;                 /**< signs; sync is then true. NULL: no key */
 } pose_send_t;
 
 /**
@@ -30,9 +32,9 @@ typedef struct {
 bool pose_send_check(const pose_send_t *send, char error[POSE_LINK_MESSAGE_LENGTH]);
 
 /**
- * Send the list once, in real time: the first pose at once, each other one as long after it as its time says. The
- * capture time that goes out is the moment of sending on this machine's monotonic clock, whose low bits also start
- * the counter: a list sent twice is not taken for a repetition.
+ * Send the list once, in real time: the first pose at once, or with a key 1 s later, when boards know of it; each other
+ * one as long after it as its time says. The capture time that goes out is the moment of sending on this machine's
+ * monotonic clock, whose low bits also start the counter: a list sent twice is not taken for a repetition.
  *
  * @param[out] sent  Poses handed to the link: all of them, unless it failed or was stopped.
  * @return false when the link failed.

@@ -12,6 +12,7 @@ bool pose_sender_open(pose_sender_t *sender, const pose_sender_config_t *config)
     if (can == NULL)
         return false;
     *sender = (pose_sender_t){.config = *config, .can = can, .tick_us = sim_bus_now_us(config->bus)};
+    pose_auth_init(&sender->auth, config->key, config->session, (uint64_t)sender->tick_us);
     bus_master_init(&sender->time, BUS_MASTER_TRACKER, sender->tick_us);
     return true;
 }
@@ -25,11 +26,12 @@ static bool send_pose(pose_sender_t *sender, const pose_list_entry_t *entry, int
         .quality = CAN_POSE_TRACKED,
         .counter = sender->counter,
     };
-    hal_can_frame_t frame[CAN_POSE_PARTS];
-    const int frames = sender->config.fd ? 1 : CAN_POSE_PARTS;
+    hal_can_frame_t frame[POSE_AUTH_FRAMES];
     if (!(sender->config.fd ? can_pose_fd_encode(frame, &pose) : can_pose_set_encode(frame, &pose)))
         return false;
-    bool ok = true;
+    const int frames = pose_auth_sign_pose(sender->config.key == NULL ? NULL : &sender->auth, frame,
+                                           sender->config.fd ? 1 : CAN_POSE_PARTS, pose.viewer, (uint64_t)now_us);
+    bool ok = frames > 0;
     for (int i = 0; i < frames; i++)
         ok &= hal_can_send(sender->can, &frame[i]) == HAL_OK;
     return ok;
@@ -53,12 +55,28 @@ static int64_t next_pose_us(const pose_sender_t *sender)
     return sender->config.start_us + list->entry[sender->next].time_us - list->entry[0].time_us;
 }
 
+static void sign_and_tell(pose_sender_t *sender)
+{
+    hal_can_frame_t frame;
+    const uint64_t now_us = (uint64_t)sender->tick_us;
+    bool ok = true; /* else the queue is full, and boards will ask again */
+    if (sender->time.paired && pose_auth_sign_time(&sender->auth, sender->time.pair, now_us, &frame))
+        ok = hal_can_send(sender->can, &frame) == HAL_OK;
+    while (ok && session_teller_next(&sender->auth.teller, &frame, sender->tick_us))
+        ok = hal_can_send(sender->can, &frame) == HAL_OK;
+}
+
 static void give_time(pose_sender_t *sender)
 {
     hal_can_frame_t frame;
-    while (hal_can_receive(sender->can, &frame) == HAL_OK)
+    while (hal_can_receive(sender->can, &frame) == HAL_OK) {
         (void)bus_master_hear(&sender->time, &frame);
+        if (sender->config.key != NULL)
+            session_teller_hear(&sender->auth.teller, &frame, sender->tick_us, (uint64_t)sender->tick_us);
+    }
     bus_master_step(&sender->time, sender->can, sender->tick_us);
+    if (sender->config.key != NULL)
+        sign_and_tell(sender);
     sender->tick_us += TICK_US;
 }
 

@@ -9,6 +9,7 @@
 
 #include "firmware/bus_master.h"
 #include "sim/bus/sim_bus.h"
+#include "sim/pose/pose_auth.h"
 #include "sim/pose/pose_list.h"
 
 typedef struct {
@@ -17,6 +18,8 @@ typedef struct {
     bool fd;                 /**< one CAN FD frame a pose, else a set of three classic frames */
     int64_t start_us;        /**< the simulation's time at which the list's first pose is sent */
     bool sync;               /**< give bus time: the simulation's */
+    can_auth_t *key;         /**< of the room, must outlive the sender, which then gives bus time; NULL: it has none */
+    uint64_t session;        /**< with a key: random */
 } pose_sender_config_t;
 
 /** Its fields are the sender's own, but for the counts. */
@@ -27,8 +30,9 @@ typedef struct {
     int64_t tick_us; /**< when it looks at the bus next, to give bus time */
     size_t next;     /**< entry of the list */
     uint8_t counter;
-    int64_t sent;   /**< poses queued on the controller */
-    int64_t unsent; /**< poses that could not be encoded, or that the controller refused */
+    pose_auth_t auth; /**< with a key */
+    int64_t sent;     /**< poses queued on the controller */
+    int64_t unsent;   /**< poses that could not be encoded, or that the controller refused */
 } pose_sender_t;
 
 /**

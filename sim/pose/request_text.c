@@ -11,11 +11,12 @@
 
 enum { US_PER_MS = 1000, FIRST_KIND = COMMAND_HELLO };
 
-static const char *const names[] = {"hello", "method", "freeze", "pattern", "latency", "reboot", "log"};
+static const char *const names[] = {"hello",  "method", "freeze", "pattern", "latency",
+                                    "reboot", "log",    "nonce",  "session"};
 static const char *const patterns[COMMAND_PATTERNS] = {"none", "grid", "white", "black"};
 static const char *const switches[] = {"off", "on"};
 
-enum { KINDS = sizeof names / sizeof names[0] };
+enum { KINDS = sizeof names / sizeof names[0], OPERATORS_KINDS = COMMAND_LOG };
 
 /* @return Its place in the list, or count. */
 static int find(const char *word, const char *const list[], int count)
@@ -74,6 +75,8 @@ static bool read_value(command_t *request, const char *value, char error[REQUEST
     case COMMAND_HELLO:
     case COMMAND_REBOOT:
     case COMMAND_LOG:
+    case COMMAND_NONCE:
+    case COMMAND_SESSION:
         break;
     }
     return true;
@@ -81,8 +84,8 @@ static bool read_value(command_t *request, const char *value, char error[REQUEST
 
 bool request_from_text(command_t *request, const char *name, const char *value, char error[REQUEST_TEXT_MESSAGE_LENGTH])
 {
-    const int place = find(name, names, KINDS);
-    if (place == KINDS) {
+    const int place = find(name, names, OPERATORS_KINDS); /* the others are for programs */
+    if (place == OPERATORS_KINDS) {
         snprintf(error, REQUEST_TEXT_MESSAGE_LENGTH,
                  "found \"%.40s\", expected hello, method, freeze, pattern, latency, reboot or log", name);
         return false;
@@ -140,7 +143,7 @@ const char *request_refusal(command_kind_t kind, uint8_t result)
     case COMMAND_BAD_VALUE:
         return "does not take this value; is its firmware older than this program?";
     case COMMAND_REFUSED:
-        return "refuses: it has a key, and takes commands only with a code made of it";
+        return "refuses: it has a key, and takes commands only with the same one (--key FILE)";
     case COMMAND_IMPOSSIBLE:
         return kind == COMMAND_METHOD ? "is not ready for this method; put it into the room file and start it anew"
                                       : "cannot do it now";

@@ -6,15 +6,17 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "sim/pose/pose_auth.h"
 #include "sim/pose/pose_link.h"
 
 /** Made by sync_send_begin(). */
 typedef struct {
     int64_t due_us; /**< of the next pair, on sim_clock_monotonic_us() */
     uint8_t counter;
+    pose_auth_t *auth; /**< signs the pairs; NULL: nobody does */
 } sync_send_t;
 
-/** The first pair is due now. Calls pose_link_time(). @return false when the interface refuses. */
+/** The first pair is due now; sync->auth stays. Calls pose_link_time(). @return false when the interface refuses. */
 bool sync_send_begin(sync_send_t *sync, pose_link_t *link, char error[POSE_LINK_MESSAGE_LENGTH]);
 
 /**

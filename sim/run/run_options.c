@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "firmware/auth_key.h"
 #include "sim/devices/sim_picture.h"
 #include "sim/options.h"
 #include "sim/run/run_rate.h"
@@ -24,7 +25,8 @@ enum {
     KEY_RATE,
     KEY_GENLOCK,
     KEY_ORIGINAL,
-    KEY_JUDGE
+    KEY_JUDGE,
+    KEY_KEY
 };
 
 /* A whole number in a range, or the end of the program as bad usage. */
@@ -91,6 +93,7 @@ static const struct argp_option run_options[] = {
      "A house signal at the refresh rate, PPM faster, on the genlock input of every board, or of one", 0},
     {"original", KEY_ORIGINAL, "PNG", 0, "A finer original of the picture, to judge by as well", 0},
     {"judge", KEY_JUDGE, "N", 0, "Judge every Nth frame, 0 none (default: 8 frames of the run)", 0},
+    {"key", KEY_KEY, "FILE", 0, auth_key_help, 0},
     {"kernels", KEY_KERNELS, "LEVEL", 0, "Pixel loops: scalar or neon, of the same bytes (default: the fastest)", 0},
     {0},
 };
@@ -113,6 +116,9 @@ static error_t read_run(int key, char *text, struct argp_state *state)
         return 0;
     case KEY_FRAMES:
         run->frames = read_number(state, "frames", text, 1, SIM_RUN_MAX_FRAMES);
+        return 0;
+    case KEY_KEY:
+        run->key = text;
         return 0;
     case KEY_METHOD:
         run->method = options_method(state, text);

@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "firmware/auth_key.h"
+#include "hal/hal_random.h"
 #include "sim/devices/sim_clock.h"
 #include "sim/files/png_file.h"
 #include "sim/program.h"
@@ -16,7 +18,7 @@
 #include "sim/run/run_rate.h"
 #include "sim/run/run_summary.h"
 
-enum { JUDGED_FRAMES = 8, JUDGED_WITHOUT_END = 60, ERROR_LENGTH = ROOM_MESSAGE_LENGTH };
+enum { JUDGED_FRAMES = 8, JUDGED_WITHOUT_END = 60, SESSION = 1, ERROR_LENGTH = ROOM_MESSAGE_LENGTH };
 
 /* Everything that is open during a run. */
 typedef struct {
@@ -25,6 +27,8 @@ typedef struct {
     video_t *video;
     pose_list_t poses;
     image_t original;
+    can_auth_t *key;
+    uint64_t seed; /* of what nobody shall guess; 0 in virtual time */
     sim_world_t *world;
     pose_sender_t sender;
     socketcand_server_t *server;
@@ -110,6 +114,20 @@ static bool plan(run_t *run)
     return true;
 }
 
+static bool open_key(run_t *run)
+{
+    const char *file = run->options->key;
+    if (file == NULL)
+        return true;
+    if (is_real(run) && hal_random(&run->seed) != HAL_OK)
+        return file_error(run->error, file, "no random numbers from the system");
+    char error[HAL_KEY_ERROR_LENGTH];
+    run->key = auth_key_open(file, error);
+    if (run->key == NULL)
+        snprintf(run->error, sizeof run->error, "--key: %.500s", error);
+    return run->key != NULL;
+}
+
 static bool open_world(run_t *run)
 {
     const sim_world_config_t config = {
@@ -122,6 +140,8 @@ static bool open_world(run_t *run)
         .real = is_real(run),
         .start_us = run->loop.start_us,
         .refresh = run->loop.refresh,
+        .seed = run->seed,
+        .key = run->key,
     };
     run->world = sim_world_create(&config, run->error);
     if (run->world == NULL)
@@ -131,7 +151,8 @@ static bool open_world(run_t *run)
         run->server = socketcand_server_open(run->options->bus_port, bus, run->error);
         return run->server != NULL;
     }
-    const pose_sender_config_t sender = {.bus = bus, .list = &run->poses, .fd = run->room.fd, .sync = true};
+    const pose_sender_config_t sender = {
+        .bus = bus, .list = &run->poses, .fd = run->room.fd, .sync = true, .key = run->key, .session = SESSION};
     return pose_sender_open(&run->sender, &sender) || file_error(run->error, "bus", "has no room for a tracker");
 }
 
@@ -219,6 +240,7 @@ static void close_run(run_t *run)
         (void)run_files_close(&run->files, &run->record, &run->room, error);
     socketcand_server_close(run->server);
     sim_world_destroy(run->world);
+    can_auth_close(run->key);
     run_record_free(&run->record);
     free(run->original.data);
     pose_list_free(&run->poses);
@@ -235,8 +257,8 @@ int sim_run(const sim_run_options_t *options, const volatile sig_atomic_t *stop)
         return PROGRAM_FAILED;
     }
     run->options = options;
-    const bool ok =
-        open_inputs(run) && plan(run) && open_world(run) && open_outputs(run) && make_frames(run, stop) && tell(run);
+    const bool ok = open_inputs(run) && plan(run) && open_key(run) && open_world(run) && open_outputs(run) &&
+                    make_frames(run, stop) && tell(run);
     if (!ok)
         fprintf(stderr, "%s: %s\n", name, run->error);
     if (run->interrupted)

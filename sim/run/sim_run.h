@@ -27,6 +27,7 @@ typedef struct {
     double rate_hz; /**< refresh, in place of the room's; 0: the room's, else the list's up to 60 Hz, or 60 Hz */
     house_signal_options_t house; /**< genlock */
     const char *original;         /**< PNG, q times as wide and high as the camera's picture; NULL for none */
+    const char *key;              /**< file of the room's key; NULL: it has none */
     int32_t judge; /**< measure PSNR of every so many frames; 0 none; SIM_RUN_JUDGE_USUAL: 8 of the run */
 } sim_run_options_t;
 

@@ -16,7 +16,8 @@ typedef struct {
     hal_board_t devices;
     projector_t *projector;
     int64_t step_time_us;
-    bool busy; /* with its last step, in virtual time */
+    rng_t random; /* seeds of the board's starts */
+    bool busy;    /* with its last step, in virtual time */
 } node_t;
 
 struct sim_world {
@@ -50,6 +51,22 @@ static bool open_clock(sim_world_t *world, int32_t index, char error[FILE_ERROR_
     return true;
 }
 
+static hal_camera_t *open_camera(const sim_world_t *world, int32_t index, char error[FILE_ERROR_LENGTH])
+{
+    const sim_world_config_t *config = &world->config;
+    const video_info_t *video = video_info(config->video);
+    const sim_camera_settings_t camera = {
+        .video = config->video,
+        .width = config->room->camera.width,
+        .height = config->room->camera.height,
+        .format = config->camera,
+        .rate = {config->start_us, video->rate_frames, video->rate_seconds},
+        .clock = world->node[index].devices.clock,
+        .seed = (uint32_t)config->seed + (uint32_t)index,
+    };
+    return sim_camera_create(&camera, error);
+}
+
 static bool open_devices(sim_world_t *world, int32_t index, char error[FILE_ERROR_LENGTH])
 {
     const sim_world_config_t *config = &world->config;
@@ -60,17 +77,7 @@ static bool open_devices(sim_world_t *world, int32_t index, char error[FILE_ERRO
         return file_error(error, board->name, "no room on the bus, or out of memory");
     if (!open_clock(world, index, error))
         return false;
-    const video_info_t *video = video_info(config->video);
-    const sim_camera_settings_t camera = {
-        .video = config->video,
-        .width = config->room->camera.width,
-        .height = config->room->camera.height,
-        .format = config->camera,
-        .rate = {config->start_us, video->rate_frames, video->rate_seconds},
-        .clock = devices->clock,
-        .seed = (uint32_t)config->seed + (uint32_t)index,
-    };
-    devices->camera = sim_camera_create(&camera, error);
+    devices->camera = open_camera(world, index, error);
     const sim_display_settings_t display = {
         .width = board->wall.panel_width,
         .height = board->wall.panel_height,
@@ -86,22 +93,43 @@ static bool open_devices(sim_world_t *world, int32_t index, char error[FILE_ERRO
     return devices->service != NULL;
 }
 
-static bool open_node(sim_world_t *world, int32_t index, char error[FILE_ERROR_LENGTH])
+static void start(sim_world_t *world, int32_t index)
 {
     const room_t *room = world->config.room;
+    node_t *node = &world->node[index];
     room_board_t board = room->board[index];
     if (world->config.method != NULL)
         board.method = world->config.method;
-    if (!open_devices(world, index, error))
-        return false;
-    node_t *node = &world->node[index];
-    node->projector = calloc(1, sizeof *node->projector);
-    if (node->projector == NULL)
-        return file_error(error, board.name, "out of memory: a projector takes %zu MB", sizeof(projector_t) >> 20);
     const warp_kernels_t *kernels = world->config.kernels != NULL ? world->config.kernels : warp_kernels_best();
     projector_init(node->projector, room, &board, &node->devices, kernels);
+    projector_use_key(node->projector, world->config.key, rng_next(&node->random));
     if (world->config.real) /* the boards share this machine */
         projector_keep_method(node->projector);
+}
+
+bool sim_world_restart(sim_world_t *world, int32_t index, char error[FILE_ERROR_LENGTH])
+{
+    hal_board_t *devices = &world->node[index].devices;
+    hal_camera_t *camera = open_camera(world, index, error); /* the old one has lent its pictures */
+    if (camera == NULL)
+        return false;
+    sim_camera_destroy(devices->camera);
+    devices->camera = camera;
+    start(world, index);
+    return true;
+}
+
+static bool open_node(sim_world_t *world, int32_t index, char error[FILE_ERROR_LENGTH])
+{
+    const char *name = world->config.room->board[index].name;
+    node_t *node = &world->node[index];
+    if (!open_devices(world, index, error))
+        return false;
+    node->projector = calloc(1, sizeof *node->projector);
+    if (node->projector == NULL)
+        return file_error(error, name, "out of memory: a projector takes %zu MB", sizeof(projector_t) >> 20);
+    node->random = (rng_t){world->config.seed + ((uint64_t)(index + 1) << 40)};
+    start(world, index);
     return true;
 }
 

@@ -34,7 +34,8 @@ typedef struct {
     bool real;                     /**< clocks run by themselves (CLOCK_MONOTONIC); else in virtual time */
     int64_t start_us;              /**< now, when the world begins: the cameras' first picture */
     sim_rate_t refresh;            /**< vertical blanks of all displays; beat 0 is after start_us */
-    uint64_t seed;                 /**< of everything random, when faults or clocks are asked for */
+    uint64_t seed;                 /**< of everything random, when faults, clocks or a key are asked for */
+    can_auth_t *key;               /**< of the room, must outlive the world; NULL: it has none */
     sim_world_clocks_t clocks;
 } sim_world_config_t;
 
@@ -66,6 +67,10 @@ const projector_t *sim_world_projector(const sim_world_t *world, int32_t board);
  * @return false when a picture was lost because the video could not be read; all else is done.
  */
 bool sim_world_advance(sim_world_t *world, int64_t now_us, char error[FILE_ERROR_LENGTH]);
+
+/** Start one board's firmware and camera anew, as after a reset. @return false, and nothing changed, with the reason in
+ *  error. */
+bool sim_world_restart(sim_world_t *world, int32_t board, char error[FILE_ERROR_LENGTH]);
 
 /** Let one board do one projector_step(); none while it is still at work on its last one. */
 void sim_world_step_board(sim_world_t *world, int32_t board);

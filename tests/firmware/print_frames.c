@@ -10,6 +10,8 @@
 #include "firmware/can_frame_clock.h"
 #include "firmware/can_latency.h"
 #include "firmware/can_protocol.h"
+#include "tests/support/auth_frames.h"
+#include "tests/support/auth_frames.h"
 
 enum { POSE_CYCLE_MS = 4 };
 
@@ -29,6 +31,31 @@ static void check(bool encoded)
     }
 }
 
+static can_auth_t *key;
+
+/* The frame behind a message, with the key of auth_frames.h. Codes are from `openssl mac -cipher AES-128-CBC -macopt
+ * hexkey:000102030405060708090A0B0C0D0E0F CMAC`. */
+static void print_code(const char *message, const can_auth_message_t *frames, int cycle_ms, const char *mac)
+{
+    hal_can_frame_t tag;
+    check(can_auth_sign(key, AUTH_FRESH, frames, &tag));
+    print_frame(message, &tag, cycle_ms);
+    printf("signal %sTime 13952502\nsignal %sMac %s\n", message, message, mac); /* 0xD4E5F6 */
+}
+
+static void print_signed_fd(hal_can_frame_t frame)
+{
+    check(can_auth_sign_fd(key, AUTH_FRESH, &frame));
+    frame.id = CAN_AUTH_ID_POSE_FD;
+    print_frame("PoseSigned", &frame, POSE_CYCLE_MS);
+    printf("signal PoseSignedCounter 254\nsignal PoseSignedQuality 2\nsignal PoseSignedTracker 13\n"
+           "signal PoseSignedX 1234.567\nsignal PoseSignedY -999999.999\nsignal PoseSignedZ 0.001\n"
+           "signal PoseSignedQw 1\nsignal PoseSignedQx -0.5\nsignal PoseSignedQy 2.384185791015625E-7\n"
+           "signal PoseSignedQz -0.75\nsignal PoseSignedCaptureTime 4000000001\n"
+           "signal PoseSignedTime 177789161760246\n" /* 0xA1B2C3D4E5F6 */
+           "signal PoseSignedMacLow 655171782671\nsignal PoseSignedMacHigh 816104734545\n");
+}
+
 static void print_fd(void)
 {
     hal_can_frame_t frame;
@@ -46,6 +73,7 @@ static void print_fd(void)
            "signal PoseX 1234.567\nsignal PoseY -999999.999\nsignal PoseZ 0.001\n"
            "signal PoseQw 1\nsignal PoseQx -0.5\nsignal PoseQy 2.384185791015625E-7\nsignal PoseQz -0.75\n"
            "signal PoseCaptureTime 4000000001\n");
+    print_signed_fd(frame);
 }
 
 static void print_set(void)
@@ -67,6 +95,8 @@ static void print_set(void)
     print_frame("PoseSetC", &part[2], POSE_CYCLE_MS);
     printf("signal PoseSetCCounter 11\nsignal PoseSetCaptureTimeHigh 4915200\nsignal PoseSetQx -1\n"
            "signal PoseSetQy 0.000030517578125\nsignal PoseSetQz -0.75\n");
+    const can_auth_message_t set = {part, CAN_POSE_PARTS, CAN_AUTH_ID_POSE_SET};
+    print_code("PoseSetCode", &set, POSE_CYCLE_MS, "699254507930");
 }
 
 static void print_status(void)
@@ -130,15 +160,17 @@ static void print_qualities(void)
 
 static void print_sync(void)
 {
-    hal_can_frame_t frame;
+    hal_can_frame_t pair[2];
     const can_sync_t sync = {.number = 0, .counter = 9, .origin = 37};
-    check(can_sync_encode(&frame, &sync));
-    print_frame("Sync", &frame, CAN_SYNC_PERIOD_MS);
+    check(can_sync_encode(&pair[0], &sync));
+    print_frame("Sync", &pair[0], CAN_SYNC_PERIOD_MS);
     printf("signal SyncCounter 9\nsignal SyncOrigin 37\nsignal SyncReserved 0\n");
     const can_follow_up_t follow_up = {.number = 0, .counter = 9, .time_us = 273849506172839};
-    check(can_follow_up_encode(&frame, &follow_up));
-    print_frame("FollowUp", &frame, CAN_SYNC_PERIOD_MS);
+    check(can_follow_up_encode(&pair[1], &follow_up));
+    print_frame("FollowUp", &pair[1], CAN_SYNC_PERIOD_MS);
     printf("signal FollowUpCounter 9\nsignal FollowUpReserved 0\nsignal FollowUpTime 273849506172839\n");
+    const can_auth_message_t message = {pair, 2, CAN_AUTH_ID_TIME};
+    print_code("TimeCode", &message, CAN_SYNC_PERIOD_MS, "302467567129");
 }
 
 static void print_times(void)
@@ -181,6 +213,8 @@ static void print_frame_clock(void)
            "87\n"
            "signal FrameClockPhase 16120\nsignal FrameClockLag 34576\nsignal FrameClockSure 1\n"
            "signal FrameClockToCome 0\nsignal FrameClockChanges 0\n");
+    const can_auth_message_t message = {&frame, 1, CAN_AUTH_ID_FRAME_CLOCK + 1};
+    print_code("FrameClockCode", &message, CAN_FRAME_CLOCK_PERIOD_MS, "54077084522");
     const can_step_t step = {.node = 1,
                              .counter = 7,
                              .in_step = true,
@@ -215,6 +249,9 @@ static void print_latencies(void)
                "signal LatencyLag 16768\nsignal LatencyDisplay 33.5\nsignal LatencyWanted 123\n"
                "signal LatencyPhoton 61.25\nsignal LatencyOff %d\nnamed LatencyFault %s\n",
                2 + i, i, i, i % 2 == 0, i % 2 == 0 ? 1280 : -7936, NAME[i]);
+        const can_auth_message_t message = {&frame, 1, CAN_AUTH_ID_LATENCY + 1};
+        if (i == 0)
+            print_code("LatencyCode", &message, CAN_LATENCY_PERIOD_MS, "500234171403");
     }
 }
 
@@ -244,13 +281,14 @@ static void print_heartbeats(void)
         {CAN_FAULT_BUS, "HeartbeatFaultBus"},           {CAN_FAULT_BUS_OFF, "HeartbeatFaultBusOff"},
         {CAN_FAULT_CAMERA, "HeartbeatFaultCamera"},     {CAN_FAULT_DISPLAY, "HeartbeatFaultDisplay"},
         {CAN_FAULT_GPIO, "HeartbeatFaultGpio"},         {CAN_FAULT_WATCHDOG, "HeartbeatFaultWatchdog"},
-        {CAN_FAULT_DEADLINE, "HeartbeatFaultDeadline"},
+        {CAN_FAULT_DEADLINE, "HeartbeatFaultDeadline"}, {CAN_FAULT_REFUSED, "HeartbeatFaultRefused"},
+        {CAN_FAULT_SESSION, "HeartbeatFaultSession"},
     };
     enum { FAULTS = sizeof FAULT / sizeof FAULT[0] };
     for (int i = 0; i < FAULTS; i++) {
         hal_can_frame_t frame;
         const can_heartbeat_t heartbeat = {.node = 1,
-                                           .counter = (uint8_t)(8 + i),
+                                           .counter = (uint8_t)(6 + i),
                                            .state = (can_board_state_t)(i % CAN_BOARD_STATES),
                                            .fault_flags = FAULT[i].flag,
                                            .frame_number = 43210,
@@ -259,7 +297,7 @@ static void print_heartbeats(void)
         print_frame("Heartbeat", &frame, CAN_HEARTBEAT_PERIOD_MS);
         printf("signal HeartbeatCounter %d\nsignal HeartbeatState %d\nsignal HeartbeatFrameNumber 43210\n"
                "signal HeartbeatUptime 54321\nsignal HeartbeatFaultReserved 0\n",
-               8 + i, i % CAN_BOARD_STATES);
+               6 + i, i % CAN_BOARD_STATES);
         for (int k = 0; k < FAULTS; k++)
             printf("signal %s %d\n", FAULT[k].signal, k == i ? 1 : 0);
     }
@@ -267,6 +305,8 @@ static void print_heartbeats(void)
 
 int main(void)
 {
+    key = can_auth_open(&AUTH_KEY);
+    check(key != NULL);
     print_fd();
     print_set();
     print_status();
@@ -278,5 +318,6 @@ int main(void)
     print_latencies();
     print_counts();
     print_heartbeats();
+    can_auth_close(key);
     return 0;
 }

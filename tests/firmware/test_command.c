@@ -23,6 +23,8 @@ static void assert_bytes(const command_t *command, const char *bytes, int length
     assert_int_equal(read.pattern, command->pattern);
     assert_int_equal(read.latency_us, command->latency_us);
     assert_int_equal(read.first_event, command->first_event);
+    assert_int_equal(read.session, command->session);
+    assert_int_equal(read.bus_time_us, command->bus_time_us);
 }
 
 static void test_requests(void **state)
@@ -43,6 +45,9 @@ static void test_requests(void **state)
                  "reboot",
                  7);
     assert_bytes(&(command_t){.kind = COMMAND_LOG, .first_event = 0x12345678}, "\x07\x78\x56\x34\x12", 5);
+    assert_bytes(&(command_t){.kind = COMMAND_NONCE}, "\x08", 1);
+    const command_t session = {.kind = COMMAND_SESSION, .session = 0x0123456789ABCDEF, .bus_time_us = 0xFEDCBA987654};
+    assert_bytes(&session, "\x09\xEF\xCD\xAB\x89\x67\x45\x23\x01\x54\x76\x98\xBA\xDC\xFE\x00\x00", 17);
     for (int m = 0; m < WARP_METHODS; m++) {
         uint8_t bytes[COMMAND_MAX_BYTES];
         command_t read;
@@ -62,7 +67,7 @@ static void test_bad_requests_change_nothing(void **state)
     } bad[] = {
         {"", 0, COMMAND_BAD_VALUE},
         {"\x00", 1, COMMAND_UNKNOWN},
-        {"\x08", 1, COMMAND_UNKNOWN},
+        {"\x0A", 1, COMMAND_UNKNOWN},
         {"\xFF", 1, COMMAND_UNKNOWN},
         {"\x01\x00", 2, COMMAND_BAD_VALUE},
         {"\x02"
@@ -80,6 +85,14 @@ static void test_bad_requests_change_nothing(void **state)
         {"\x06reboo", 6, COMMAND_BAD_VALUE},
         {"\x06reboot!", 8, COMMAND_BAD_VALUE},
         {"\x07", 1, COMMAND_BAD_VALUE},
+        {"\x08\x00", 2, COMMAND_BAD_VALUE},
+        {"\x09", 1, COMMAND_BAD_VALUE},
+        {"\x09"
+         "12345678abcdef\x00", /* 16 bytes with the zero at the end are due */
+         16, COMMAND_BAD_VALUE},
+        {"\x09"
+         "12345678abcdef\x01\x00", /* 2^48 us and more */
+         17, COMMAND_BAD_VALUE},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         command_t command = {.kind = COMMAND_HELLO, .latency_us = 77};

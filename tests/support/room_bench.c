@@ -74,6 +74,11 @@ static void load_room(room_t *room, bool fd)
 
 void room_bench_open(room_bench_t *bench, bool fd)
 {
+    room_bench_open_with_key(bench, fd, NULL);
+}
+
+void room_bench_open_with_key(room_bench_t *bench, bool fd, can_auth_t *key)
+{
     char error[FILE_ERROR_LENGTH] = "";
     memset(bench, 0, sizeof *bench);
     load_room(&bench->room, fd);
@@ -84,6 +89,7 @@ void room_bench_open(room_bench_t *bench, bool fd)
         .video = bench->video,
         .refresh = {1000000 / (2 * ROOM_BENCH_HZ), ROOM_BENCH_HZ, 1},
         .seed = 7,
+        .key = key,
     };
     bench->world = sim_world_create(&config, error);
     assert_string_equal(error, "");

@@ -37,6 +37,9 @@ typedef struct {
 /** Two boards and a camera of 96 x 54 px with the test pattern; nobody has stepped yet. Fails the test on error. */
 void room_bench_open(room_bench_t *bench, bool fd);
 
+/** The same in a room with a key, which must outlive it. The bench's own tracker has none. */
+void room_bench_open_with_key(room_bench_t *bench, bool fd, can_auth_t *key);
+
 void room_bench_close(room_bench_t *bench);
 
 /** Pose number n of the tracker: every one differs from the one before. */

@@ -72,13 +72,15 @@ port_in() {
     return 1
 }
 
-# start_room NAME: a room in real time; its bus is then $bus, its process $room.
+# start_room NAME OPTION ...: a room in real time; its bus is then $bus, its process $room.
 start_room() {
-    "$build/wallwarp-sim" run "$scratch/classic.yaml" --video $picture --bus 0 --out "$scratch/$1" \
-        >"$scratch/$1.out" 2>/dev/null &
+    room_name=$1
+    shift
+    "$build/wallwarp-sim" run "$scratch/classic.yaml" --video $picture --bus 0 --out "$scratch/$room_name" "$@" \
+        >"$scratch/$room_name.out" 2>/dev/null &
     room=$!
     started="$started $room"
-    bus=127.0.0.1:$(port_in "$scratch/$1.out")
+    bus=127.0.0.1:$(port_in "$scratch/$room_name.out")
 }
 
 end_room() {
