@@ -16,11 +16,17 @@ uint64_t auth_clock_least_us(const auth_clock_t *clock, int64_t local_us)
     return least_us > 0 ? (uint64_t)least_us : 0;
 }
 
+void auth_clock_begin(auth_clock_t *clock, uint64_t bus_us, int64_t local_us)
+{
+    *clock = (auth_clock_t){.bus_us = bus_us, .local_us = local_us, .begun = true};
+}
+
 void auth_clock_hear(auth_clock_t *clock, uint64_t bus_us, int64_t local_us)
 {
     const uint64_t least_us = auth_clock_least_us(clock, local_us);
     if (bus_us > least_us)
-        *clock = (auth_clock_t){bus_us, local_us};
+        *clock = (auth_clock_t){.bus_us = bus_us, .local_us = local_us};
+    clock->begun = false;
 }
 
 can_auth_window_t auth_clock_window(const auth_clock_t *clock, int64_t local_us)
@@ -28,7 +34,8 @@ can_auth_window_t auth_clock_window(const auth_clock_t *clock, int64_t local_us)
     return (can_auth_window_t){
         .now_us = auth_clock_least_us(clock, local_us),
         .past_us = AUTH_CLOCK_PAST_US,
-        .future_us = AUTH_CLOCK_AHEAD_US + 2 * (uint64_t)drift_us(clock, local_us),
+        .future_us =
+            (clock->begun ? AUTH_CLOCK_FIRST_US : AUTH_CLOCK_AHEAD_US) + 2 * (uint64_t)drift_us(clock, local_us),
     };
 }
 

@@ -7,6 +7,7 @@
 #ifndef FIRMWARE_AUTH_CLOCK_H
 #define FIRMWARE_AUTH_CLOCK_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "firmware/can_auth.h"
@@ -14,15 +15,22 @@
 enum {
     AUTH_CLOCK_MAX_PPM = 500,     /**< between two clocks: as BUS_TIME_MAX_PPM */
     AUTH_CLOCK_PAST_US = 100000,  /**< a message that is older than this when it comes has been held back */
-    AUTH_CLOCK_AHEAD_US = 1000000 /**< bus time may be so much later than known: what a command takes to come, at most;
-                                     after a silence, AUTH_CLOCK_MAX_PPM of it twice more */
+    AUTH_CLOCK_AHEAD_US = 100000, /**< bus time may be so much later than known, and after a silence AUTH_CLOCK_MAX_PPM
+                                     of it twice more. Not more than PAST: one message that is stamped too early
+                                     does not make later ones old */
+    AUTH_CLOCK_FIRST_US = 2000000 /**< in place of AHEAD for the first message after auth_clock_begin(): what the
+                                     command may have taken */
 };
 
 /** All zero: bus time 0 at the clock's 0. */
 typedef struct {
     uint64_t bus_us;  /**< bus time was that, or later, */
     int64_t local_us; /**< when the board's clock showed this */
+    bool begun;       /**< no message has come since auth_clock_begin() */
 } auth_clock_t;
+
+/** Forget all: bus time was that, or up to AUTH_CLOCK_FIRST_US more, at this moment. */
+void auth_clock_begin(auth_clock_t *clock, uint64_t bus_us, int64_t local_us);
 
 /** An authentic message of a time has come: later ones move the clock, earlier ones do not. */
 void auth_clock_hear(auth_clock_t *clock, uint64_t bus_us, int64_t local_us);

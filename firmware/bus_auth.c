@@ -6,6 +6,8 @@
 
 #include "firmware/can_latency.h"
 
+_Static_assert((int)AUTH_CLOCK_FIRST_US >= (int)BUS_AUTH_NONCE_US, "a session's time is no older than its number");
+
 void bus_auth_init(bus_auth_t *auth, can_auth_t *key, uint8_t viewer, uint64_t seed)
 {
     memset(auth, 0, sizeof *auth);
@@ -43,7 +45,7 @@ void bus_auth_begin_session(bus_auth_t *auth, uint64_t session, uint64_t bus_us,
 {
     auth->has_session = true;
     auth->session = session;
-    auth->clock = (auth_clock_t){bus_us, now_us};
+    auth_clock_begin(&auth->clock, bus_us, now_us);
     auth->tracker_us = now_us;
     begin_stream(&auth->fd, session, bus_us);
     begin_stream(&auth->set, session, bus_us);

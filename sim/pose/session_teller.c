@@ -5,7 +5,7 @@
 #include "firmware/byte_order.h"
 #include "firmware/command.h"
 
-enum { HEADER_BYTES = 2, NONCE_BYTES = 8, GIVE_UP_US = 800000, KEYLESS_US = 10000000 };
+enum { HEADER_BYTES = 2, NONCE_BYTES = 8, GIVE_UP_US = 1500000, KEYLESS_US = 10000000 };
 
 void session_teller_init(session_teller_t *teller, can_auth_t *auth, uint64_t session)
 {

@@ -21,7 +21,7 @@ static void test_later_messages_move_it(void **state)
     auth_clock_hear(&clock, 6000000, 1000100);
     assert_int_equal(auth_clock_least_us(&clock, 1000100), 6000000);
     assert_int_equal(auth_clock_least_us(&clock, 1000090), 5999990); /* a frame stamped before */
-    assert_int_equal(auth_clock_least_us(&(auth_clock_t){5, 100}, 50), 0);
+    assert_int_equal(auth_clock_least_us(&(auth_clock_t){.bus_us = 5, .local_us = 100}, 50), 0);
 }
 
 /* Whatever the clocks do, it is never more than bus time, and with messages little less. */
@@ -33,7 +33,7 @@ static void test_it_is_never_too_much(void **state)
         const double rate = 1.0 + (rng_unit(&random) - 0.5) * 2.0 * AUTH_CLOCK_MAX_PPM / 1e6;
         const double offset = rng_unit(&random) * 1e12;
         double bus = offset;
-        auth_clock_t clock = {(uint64_t)bus, 0};
+        auth_clock_t clock = {.bus_us = (uint64_t)bus};
         for (int64_t local_us = 0; local_us < hour_us; local_us += 1 + (int64_t)(rng_unit(&random) * 2e8)) {
             bus = offset + (double)local_us * rate;
             const uint64_t least = auth_clock_least_us(&clock, local_us);
@@ -58,6 +58,21 @@ static void test_a_silence_widens_the_window_ahead(void **state)
     assert_true((double)(later.now_us + later.future_us) <= most_us + 2 * AUTH_CLOCK_AHEAD_US);
 }
 
+/* A message that is stamped too early does not make later ones old: once bus time is known to a tenth of a second, no
+ * more than that is believed. */
+static void test_an_early_stamp_does_no_harm(void **state)
+{
+    (void)state;
+    auth_clock_t clock;
+    auth_clock_begin(&clock, 1000000, 0);
+    assert_int_equal(auth_clock_window(&clock, 0).future_us, AUTH_CLOCK_FIRST_US);
+    auth_clock_hear(&clock, 1000000, 0);
+    const can_auth_window_t window = auth_clock_window(&clock, 0);
+    assert_int_equal(window.future_us, AUTH_CLOCK_AHEAD_US);
+    auth_clock_hear(&clock, window.now_us + window.future_us, 0); /* the most that is believed */
+    assert_true(auth_clock_window(&clock, 1000).now_us - AUTH_CLOCK_PAST_US <= 1001000);
+}
+
 static void test_signed_is_bus_time_where_it_can_be(void **state)
 {
     (void)state;
@@ -74,6 +89,7 @@ int main(void)
         cmocka_unit_test(test_later_messages_move_it),
         cmocka_unit_test(test_it_is_never_too_much),
         cmocka_unit_test(test_a_silence_widens_the_window_ahead),
+        cmocka_unit_test(test_an_early_stamp_does_no_harm),
         cmocka_unit_test(test_signed_is_bus_time_where_it_can_be),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,12 +19,12 @@ new_key "$wrong"
 # on a busy machine poses come late, and sessions too.
 boards_are() {
     tries=0
-    while [ $tries -lt 12 ]; do
+    while [ $tries -lt 30 ]; do
         pose_tool monitor --bus "$bus" --seconds 1.2
         [ "$(tail -n 8 "$scratch/stdout" | grep -c "^     [$boards]  $1 .* $2 ")" -eq ${#boards} ] && break
         tries=$((tries + 1))
     done
-    [ $tries -lt 12 ]
+    [ $tries -lt 30 ]
     result=$?
     [ $result -eq 0 ] || cat "$scratch/stdout"
     check "$3" $result
