@@ -16,6 +16,7 @@
 #include "firmware/can_latency.h"
 #include "firmware/pose_from_can.h"
 #include "sim/bus/candump_text.h"
+#include "tests/support/auth_frames.h"
 
 enum { FRAMES = 6, ROWS = 33, CELLS = 5, LINE_LENGTH = 512, POSES_PER_S = 240 };
 
@@ -264,9 +265,17 @@ static void test_loads_are_the_sums(void **state)
         {"| all reports of a board", reports, 0},
         {"| a room of 8 boards, a viewer with `Pose`", room, POSES_PER_S},
         {"| the same with sets", room + 3 * POSES_PER_S, 0},
+        {"| with a key: set and `PoseSetCode`", 4 * POSES_PER_S, 0},
+        {"| with a key: `Sync`, `FollowUp`, `TimeCode`", 3 * sync / 2, 0},
+        {"half as much again while a change is announced", 2 * clock, 0},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         assert_row(&rows[i]);
+    char text[LINE_LENGTH];
+    snprintf(text, sizeof text, "| with a key: `PoseSigned` | 240 | %.2f to %.2f %% | %.2f to %.2f %% |",
+             24000 * (29 / 5e5 + 422 / 2e6), 24000 * (31 / 5e5 + 519 / 2e6), 24000 * (29 / 1e6 + 422 / 5e6),
+             24000 * (31 / 1e6 + 519 / 5e6));
+    assert_page_has(text);
 }
 
 static void test_check_values_of_the_crcs(void **state)
@@ -282,12 +291,42 @@ static void test_check_values_of_the_crcs(void **state)
     assert_page_has(text);
 }
 
+static void assert_page_has_bytes(const char *before, const uint8_t *bytes, int count)
+{
+    char text[128];
+    int length = snprintf(text, sizeof text, "`%s", before);
+    for (int i = 0; i < count; i++)
+        length += snprintf(text + length, sizeof text - (size_t)length, "%02X", (unsigned)bytes[i]);
+    snprintf(text + length, sizeof text - (size_t)length, "`");
+    assert_page_has(text);
+}
+
+static void test_codes_are_those_of_the_frames(void **state)
+{
+    (void)state;
+    static const can_auth_fresh_t fresh = {0x0123456789ABCDEF, 4394971600};
+    example_t example = read_example();
+    can_auth_t *auth = can_auth_open(&AUTH_KEY);
+    assert_non_null(auth);
+    hal_can_frame_t tag;
+    const can_auth_message_t set = {&example.frame[3], CAN_POSE_PARTS, CAN_AUTH_ID_POSE_SET};
+    assert_true(can_auth_sign(auth, fresh, &set, &tag));
+    assert_page_has_bytes("113#", tag.data, 8);
+    const can_auth_message_t pair = {example.frame, 2, CAN_AUTH_ID_TIME};
+    assert_true(can_auth_sign(auth, fresh, &pair, &tag));
+    assert_page_has_bytes("0C0#", tag.data, 8);
+    assert_true(can_auth_sign_fd(auth, fresh, &example.frame[2]));
+    assert_page_has_bytes("", example.frame[2].data + CAN_AUTH_FD_PLAIN, CAN_AUTH_FD_SIGNED - CAN_AUTH_FD_PLAIN);
+    can_auth_close(auth);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bytes_are_those_of_the_frames),
         cmocka_unit_test(test_frames_are_what_an_encoder_makes),
         cmocka_unit_test(test_a_board_takes_them),
+        cmocka_unit_test(test_codes_are_those_of_the_frames),
         cmocka_unit_test(test_loads_are_the_sums),
         cmocka_unit_test(test_check_values_of_the_crcs),
     };
