@@ -223,6 +223,7 @@ static void test_sessions(void **state)
     make_set(part, 1, T0 + 10);
     for (int p = 0; p <= CAN_POSE_PARTS; p++)
         assert_int_equal(hear(&part[p], T0 + 10), 0);
+    assert_int_equal(can_faults_refused(&faults), 0); /* it cannot judge, and says so otherwise */
     bus_auth_begin_session(&board, AUTH_SESSION, T0 + 100, T0 + 100);
     for (int p = 0; p <= CAN_POSE_PARTS; p++)
         assert_int_equal(hear(&part[p], T0 + 110), 0); /* from before */

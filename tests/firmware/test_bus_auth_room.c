@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A room with a key, in virtual time: who is believed, and what strangers, restarts and other masters change.
+#include "firmware/can_latency.h"
 #include "tests/firmware/key_bench.h"
 
 enum { MOST_FRAMES = 4, TRACKER_SYNC = 0x040, BOARD_5 = 5 };
@@ -42,6 +43,7 @@ static void test_who_has_the_key_is_believed(void **state)
     assert_int_equal(k.tracker.auth.teller.told, ROOM_BENCH_BOARDS);
     for (int b = 0; b < ROOM_BENCH_BOARDS; b++) {
         assert_true(key_board(b)->report.agreement.in_step);
+        assert_true(key_board(b)->choice.clock.room.board[b == 0 ? 12 : 5].any); /* the other one's Latency */
         assert_int_equal(k.room.voice[b].heartbeat.fault_flags & (CAN_FAULT_REFUSED | CAN_FAULT_SESSION), 0);
         assert_true((k.room.voice[b].flags_ever & CAN_FAULT_SESSION) != 0);
     }
@@ -267,6 +269,8 @@ static void test_time_of_strangers_changes_nothing(void **state)
         const can_frame_clock_t clock = {.node = 1, .counter = counter, .sure = true, .epoch = 9, .phase_us = 8000};
         assert_true(can_frame_clock_encode(&frame, &clock));
         key_inject(&frame, 1);
+        assert_true(can_latency_encode(&frame, &(can_latency_t){.node = 1, .counter = counter, .lag_us = 60000}));
+        key_inject(&frame, 1);
         key_step();
     }
     for (int b = 0; b < ROOM_BENCH_BOARDS; b++) {
@@ -274,7 +278,8 @@ static void test_time_of_strangers_changes_nothing(void **state)
         assert_int_equal(key_board(b)->time.time.relocks, 0);
         assert_int_equal(key_board(b)->choice.clock.now.phase_us, epoch.phase_us);
         assert_true(key_board(b)->report.agreement.in_step);
-        assert_in_range(key_faults(b)->auth_unsigned, 190, 200);
+        assert_false(key_board(b)->choice.clock.room.board[1].any);
+        assert_in_range(key_faults(b)->auth_unsigned, 290, 300);
     }
 }
 
