@@ -273,11 +273,6 @@ static void tell_life(projector_t *p, bool alive, int64_t now_us)
     hal_service_report(p->board.service, &report);
 }
 
-static int64_t newest_blank_us(const projector_t *p)
-{
-    return hal_display_next_vblank_us(p->board.display) - frame_rate_period_us(p->choice.clock.rate);
-}
-
 void projector_step(projector_t *p)
 {
     const int64_t now_us = end_stage(p, STAGE_WAIT, p->shown_us);
@@ -288,7 +283,7 @@ void projector_step(projector_t *p)
     if (bus_auth_may_speak(&p->auth))
         bus_master_step(&p->time, p->board.can, now_us); /* bus time -> bus, when it is this board's turn */
     commands_step(p, now_us);                            /* requests -> what is shown from now on, replies */
-    const int64_t blank_us = newest_blank_us(p);
+    const int64_t blank_us = hal_display_next_vblank_us(p->board.display) - frame_rate_period_us(p->choice.clock.rate);
     take_newest_picture(p, now_us, blank_us); /* camera -> newest picture, or the last good one */
     p->faults.gpio += !frame_choice_take_edges(&p->choice, p->board.gpio);
     p->choice.wanted_ms = p->commands.wanted_latency_ms;

@@ -62,7 +62,7 @@ static char *text_of(const scene_t *scene, bool table)
     if (table)
         bus_table_print(file, "can0", &scene->watch);
     else
-        (void)bus_check_print(file, &scene->watch);
+        (void)bus_check_print(file, &scene->watch, BUS_CHECK_NO_DELAY);
     assert_int_equal(fclose(file), 0);
     return text;
 }
