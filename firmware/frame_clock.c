@@ -15,7 +15,6 @@ void frame_clock_init(frame_clock_t *clock, const frame_clock_settings_t *settin
         .rate = settings->rate,
         .pose_delay_us = settings->pose_delay_us,
         .display_us = (settings->display_us + unit_us / 2) / unit_us * unit_us,
-        .begun_us = now_us,
         .quiet_since_us = now_us,
         .due_us = now_us,
     };

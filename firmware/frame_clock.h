@@ -51,8 +51,7 @@ enum {
     FRAME_CLOCK_AHEAD_US = 1500000,
     FRAME_CLOCK_PROOF_US = 1000000, /**< less than AHEAD: who has heard something since cannot have missed a change */
     FRAME_CLOCK_DRIFT_US = 300, /**< the house signal, or else the leader's panel, so far off on average: a new epoch */
-    FRAME_CLOCK_LAG_REFRESHES = 30,  /**< a lag or target that is wrong for so many refreshes in a row: one too */
-    FRAME_CLOCK_LISTEN_US = 3000000, /**< who was not there for so long shortens neither: boards may not have spoken */
+    FRAME_CLOCK_LAG_REFRESHES = 30, /**< a lag or target that is wrong for so many refreshes in a row: one too */
     FRAME_CLOCK_MOST_HELD =
         HAL_CAMERA_LENT - 1 /**< pictures that wait are lent by the camera, and so is the one shown */
 };
@@ -106,8 +105,7 @@ typedef struct {
     hal_can_frame_t say[2]; /**< announcements sent in the newest step: what bus_auth_sign() signs, */
     int said;               /**< and how many */
 
-    int64_t begun_us;       /**< the module's own from here on: when it began to listen, on the board's clock */
-    int64_t quiet_since_us; /**< nobody has led since */
+    int64_t quiet_since_us; /**< the module's own from here on: nobody has led since, on the board's clock */
     int64_t proven_us;      /**< newest announcement heard, or own one that got out */
     bool proven;
     int64_t led_since_us, sent_us, due_us;

@@ -23,12 +23,8 @@ static frame_epoch_t wanted(const frame_clock_t *clock, int64_t now_us)
 {
     const room_latency_sum_t sum = room_latency_sum(&clock->room, now_us);
     frame_epoch_t wanted = {.lag_us = sent_lag_us(sum.lag_us), .target_ms = frame_latency_target_ms(clock, &sum)};
-    const frame_epoch_t *now = &clock->now;
-    const bool listening = now->any && now_us - clock->begun_us < FRAME_CLOCK_LISTEN_US;
-    if (sum.lag_us == 0 || (listening && wanted.lag_us < now->lag_us))
-        wanted.lag_us = now->lag_us;
-    if (listening && wanted.target_ms < now->target_ms)
-        wanted.target_ms = now->target_ms;
+    if (sum.lag_us == 0)
+        wanted.lag_us = clock->now.lag_us;
     return wanted;
 }
 

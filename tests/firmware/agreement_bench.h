@@ -37,7 +37,29 @@ typedef struct {
 typedef struct {
     const double *display_ms; /* of each board's projector; NULL: none */
     bool classic;
+    bool video_60; /* a picture for every refresh, instead of every second one */
 } bench_settings_t;
+
+static inline video_t *open_video_60(char error[FILE_ERROR_LENGTH])
+{
+    static const char head[] = "YUV4MPEG2 W96 H54 F60:1 Cmono\n", frame[] = "FRAME\n";
+    enum { FRAMES = 8, PIXELS = 96 * 54, HEAD = sizeof head - 1, FRAME = sizeof frame - 1 };
+    static char file[HEAD + FRAMES * (FRAME + PIXELS)];
+    scratch_t scratch;
+    char path[SCRATCH_PATH_LENGTH];
+    memcpy(file, head, HEAD);
+    for (size_t n = 0; n < FRAMES; n++) {
+        char *at = file + HEAD + n * (FRAME + PIXELS);
+        memcpy(at, frame, FRAME);
+        memset(at + FRAME, (int)(16 * n), PIXELS);
+    }
+    scratch_open(&scratch);
+    scratch_path(&scratch, "video.y4m", path);
+    scratch_write(path, file, sizeof file);
+    video_t *video = video_open(path, 96, 54, error);
+    scratch_close(&scratch);
+    return video;
+}
 
 static inline void load_room(room_t *room, const bench_settings_t *settings)
 {
@@ -81,7 +103,7 @@ static inline void bench_open_with(bench_t *b, int seconds, const bench_settings
     memset(b, 0, sizeof *b);
     load_room(&b->room, settings);
     make_walk(&b->list, seconds);
-    b->video = video_open("pattern", 96, 54, error);
+    b->video = settings->video_60 ? open_video_60(error) : video_open("pattern", 96, 54, error);
     assert_string_equal(error, "");
     const sim_world_config_t config = {
         .room = &b->room,

@@ -120,7 +120,7 @@ static void test_equal_on_request(void **state)
     for (int n = 0; n < 2; n++) {
         static bench_t b;
         operator_t operator;
-        bench_open_with(&b, START_S + 60, &(bench_settings_t){.display_ms = display_ms[n]});
+        bench_open_with(&b, START_S + 60, &(bench_settings_t){.display_ms = display_ms[n], .video_60 = true});
         operator_open(&operator, & b);
         run(&b, START_S * HZ);
         figures_t found = watch(&b, display_ms[n]);
@@ -199,7 +199,7 @@ static void test_late_camera(void **state)
     (void)state;
     static const double none_ms[BOARDS] = {0};
     static bench_t b;
-    bench_open(&b, START_S + 60);
+    bench_open_with(&b, START_S + 60, &(bench_settings_t){.video_60 = true});
     run(&b, START_S * HZ);
     const int32_t before_us = sim_world_projector(b.world, 0)->choice.step.epoch.lag_us;
     sim_camera_faults_t *faults = sim_camera_faults(sim_world_devices(b.world, 4)->camera);
@@ -226,7 +226,7 @@ static void test_faults_while_equal(void **state)
     static const double display_ms[BOARDS] = {33.5, 16.5, 0, 0, 0, 16.5, 33.5, 0};
     static bench_t b;
     operator_t operator;
-    bench_open_with(&b, START_S + 90, &(bench_settings_t){.display_ms = display_ms});
+    bench_open_with(&b, START_S + 90, &(bench_settings_t){.display_ms = display_ms, .video_60 = true});
     operator_open(&operator, & b);
     run(&b, START_S * HZ);
     b.shown = b.in_step = 0;
