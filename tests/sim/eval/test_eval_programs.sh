@@ -206,7 +206,7 @@ test_bad_command_lines() {
     done
     refuses 1 'expected 480 x 270' psnr $front --pose "$pose" --in $images/coffee_510x290.png --method area
     for size in 'width: 481' 'height: 271'; do
-        sed "1s/${size%% *} [0-9]*/$size/" $room >"$scratch/room.yaml"
+        sed "/^camera:/s/${size%% *} [0-9]*/$size/" $room >"$scratch/room.yaml"
         refuses 1 "the room's camera" psnr "$scratch/room.yaml" --board front --pose "$pose" --in $picture \
             --method area
     done
