@@ -223,52 +223,6 @@ static void unlit_frames_leave_the_picture_alone(void **state)
     free(picture.memory);
 }
 
-static void auto_chooses_by_k_and_stays(void **state)
-{
-    (void)state;
-    assert_int_equal(warp_resampler_for_step(WARP_AUTO, 65536), WARP_MEAN_SPLINE);
-    assert_int_equal(warp_resampler_for_step(WARP_AUTO, 65537), WARP_MEAN_CUBIC);
-    assert_int_equal(warp_resampler_for_step(WARP_MEAN_SPLINE, 73728), WARP_MEAN_SPLINE);
-    assert_int_equal(warp_resampler_for_step(WARP_MEAN_SPLINE, 73729), WARP_MEAN_CUBIC);
-    assert_int_equal(warp_resampler_for_step(WARP_MEAN_CUBIC, 65537), WARP_MEAN_CUBIC);
-    assert_int_equal(warp_resampler_for_step(WARP_MEAN_SPLINE, 0), WARP_MEAN_SPLINE);
-    assert_int_equal(warp_resampler_for_step(WARP_AUTO, 0), WARP_MEAN_CUBIC);
-}
-
-/* A viewer walks away and back: each frame is, byte for byte, that of the method which the report names. */
-static void auto_shows_what_it_names(void **state)
-{
-    (void)state;
-    static warp_t other;
-    static const double zooms[] = {0.7, 0.95, 1.05, 1.12, 1.2, 1.1, 1.02, 0.99, 1.1};
-    static const char *const named[] = {"mean+spline", "mean+spline", "mean+spline", "mean+spline", "mean+cubic",
-                                        "mean+cubic",  "mean+cubic",  "mean+spline", "mean+spline"};
-    const int32_t size[2] = {60, 44};
-    guarded_t panel = guarded(60, 44, IMAGE_GRAY8), expected = guarded(60, 44, IMAGE_GRAY8);
-    guarded_t picture = guarded(60, 44, IMAGE_GRAY8);
-    rng_t rng = {3};
-    for (int32_t k = 0; k < 60 * 44; k++)
-        image_row(&picture.image, k / 60)[k % 60] = (uint8_t)rng_next(&rng);
-    memset(warp.table, 0, sizeof warp.table); /* of other methods */
-    warp_init(&warp, *warp_method_from_name("auto"), false, border);
-    for (size_t n = 0; n < sizeof zooms / sizeof *zooms; n++) {
-        const int64_t scale = (int64_t)(zooms[n] * 1099511627776.0), one = (int64_t)1 << 40;
-        const int64_t rows[3][3] = {{scale, 0, one * 3}, {0, scale, one * 2}, {0, 0, one}};
-        homography_t h;
-        homography_from_indices(&h, rows, size, size);
-        const warp_method_t *method = warp_method_from_name(named[n]);
-        warp_report_t report;
-        assert_true(warp_frame(&warp, &warp_kernels_scalar, &report, &h, &panel.image, &picture.image));
-        assert_int_equal(report.resampler, method->resampler);
-        warp_init(&other, *method, false, border);
-        assert_true(warp_frame(&other, &warp_kernels_scalar, NULL, &h, &expected.image, &picture.image));
-        assert_memory_equal(panel.memory, expected.memory, panel.size);
-    }
-    free(panel.memory);
-    free(expected.memory);
-    free(picture.memory);
-}
-
 static void wrong_images_are_refused(void **state)
 {
     (void)state;
@@ -307,8 +261,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_are_whole_and_nothing_else), cmocka_unit_test(identity_is_unchanged),
         cmocka_unit_test(huge_footprints_see_the_mean),      cmocka_unit_test(wrong_images_are_refused),
-        cmocka_unit_test(methods_are_found_by_name),         cmocka_unit_test(auto_chooses_by_k_and_stays),
-        cmocka_unit_test(auto_shows_what_it_names),          cmocka_unit_test(unlit_frames_leave_the_picture_alone),
+        cmocka_unit_test(methods_are_found_by_name),         cmocka_unit_test(unlit_frames_leave_the_picture_alone),
         cmocka_unit_test(steps_are_known_to_who_asks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

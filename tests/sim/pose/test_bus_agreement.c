@@ -3,14 +3,10 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include <cmocka.h>
 
-#include "sim/pose/bus_check.h"
-#include "sim/pose/bus_table.h"
+#include "tests/support/bus_said.h"
 
 enum { RATE = 60, LENGTH_S = 4, BOARDS = 3, NEVER = -1 };
 
@@ -126,29 +122,14 @@ static void play(scene_t *scene)
     }
 }
 
-/* bad: of what check says; -1: the table is meant. */
-static void assert_has(const scene_t *scene, int bad, const char *expected)
-{
-    char *text = NULL;
-    size_t length = 0;
-    FILE *file = open_memstream(&text, &length);
-    const int found = bad >= 0 ? bus_check_print(file, &scene->watch, BUS_CHECK_NO_DELAY) : -1;
-    if (bad < 0)
-        bus_table_print(file, "can0", &scene->watch);
-    assert_int_equal(fclose(file), 0);
-    if (found != bad || strstr(text, expected) == NULL)
-        fail_msg("%d bad instead of %d, or \"%s\" is not in:\n%s", found, bad, expected, text);
-    free(text);
-}
-
 static void assert_said(const scene_t *scene, int bad, const char *expected)
 {
-    assert_has(scene, bad, expected);
+    bus_said(&scene->watch, BUS_CHECK_NO_DELAY, bad, expected);
 }
 
 static void assert_shown(const scene_t *scene, const char *expected)
 {
-    assert_has(scene, -1, expected);
+    bus_shown(&scene->watch, expected);
 }
 
 static void test_all_is_well(void **state)

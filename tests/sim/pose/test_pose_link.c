@@ -1,95 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests of the sender's link: a socketcand server made up in a thread hears exactly what was to be sent.
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <pthread.h>
+// Tests of a program's link to a bus: a made up socketcand server hears exactly what was to be sent, and is heard.
 #include <setjmp.h>
-#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <string.h>
 #include <sys/socket.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
 
-#include "firmware/can_protocol.h"
 #include "sim/pose/pose_link.h"
-#include "sim/pose/pose_send.h"
-
-enum { HEARD_LENGTH = 65536 };
-
-/* Greets, answers two commands, sends some frames of its own, then hears until the client leaves. */
-typedef struct {
-    const char *greeting, *answer;
-    int listening;
-    char address[32]; /* 127.0.0.1:PORT */
-    char heard[HEARD_LENGTH];
-    size_t length;
-    pthread_t thread;
-} server_t;
-
-/* To the end of a command, or to the end of everything. */
-static void hear(server_t *server, int client, bool everything)
-{
-    char c = '\0';
-    while ((everything || c != '>') && server->length < HEARD_LENGTH - 1 && recv(client, &c, 1, 0) == 1)
-        server->heard[server->length++] = c;
-}
-
-static void say(int client, const char *text)
-{
-    if (send(client, text, strlen(text), MSG_NOSIGNAL) < 0)
-        return; /* the client has left: what it makes of that is the test */
-}
-
-static void *serve(void *context)
-{
-    server_t *server = context;
-    const int client = accept(server->listening, NULL, NULL);
-    if (client < 0)
-        return NULL;
-    say(client, server->greeting);
-    hear(server, client, false);
-    say(client, server->answer);
-    hear(server, client, false);
-    say(client, "< ok >< frame 123 1.5 1122 >");
-    for (int i = 0; i < 1000; i++)
-        say(client, "< frame 700 2.5 1122334455667788 >");
-    hear(server, client, true);
-    close(client);
-    return NULL;
-}
-
-static void start_server(server_t *server, const char *greeting, const char *answer)
-{
-    memset(server, 0, sizeof *server);
-    server->greeting = greeting;
-    server->answer = answer;
-    server->listening = socket(AF_INET, SOCK_STREAM, 0);
-    struct sockaddr_in address = {.sin_family = AF_INET, .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
-    socklen_t size = sizeof address;
-    assert_int_equal(bind(server->listening, (struct sockaddr *)&address, size), 0);
-    assert_int_equal(listen(server->listening, 1), 0);
-    assert_int_equal(getsockname(server->listening, (struct sockaddr *)&address, &size), 0);
-    snprintf(server->address, sizeof server->address, "127.0.0.1:%u", (unsigned)ntohs(address.sin_port));
-    assert_int_equal(pthread_create(&server->thread, NULL, serve, server), 0);
-}
-
-static void stop_server(server_t *server)
-{
-    assert_int_equal(pthread_join(server->thread, NULL), 0);
-    close(server->listening);
-    server->heard[server->length] = '\0';
-}
+#include "tests/support/fake_server.h"
 
 static void test_frames_arrive_as_socketcand_text(void **state)
 {
     (void)state;
-    static server_t server;
-    start_server(&server, "< hi >", "< ok >");
+    static fake_server_t server;
+    fake_server_start(&server, "< hi >", "< ok >");
     pose_link_t link;
     char error[POSE_LINK_MESSAGE_LENGTH] = "";
     if (!pose_link_open(&link, server.address, false, error))
@@ -101,7 +28,7 @@ static void test_frames_arrive_as_socketcand_text(void **state)
     };
     assert_true(pose_link_send(&link, frame, 3, error));
     pose_link_close(&link);
-    stop_server(&server);
+    fake_server_stop(&server);
     assert_string_equal(server.heard, "< open can0 >< rawmode >"
                                       "< send 110 8 0 1 10 ff ab 6 7 8 >< send 7FF 0 >< send 00001234 1 9 >");
 }
@@ -110,8 +37,8 @@ static void test_frames_arrive_as_socketcand_text(void **state)
 static void test_frames_are_heard_in_order(void **state)
 {
     (void)state;
-    static server_t server;
-    start_server(&server, "< hi >", "< ok >");
+    static fake_server_t server;
+    fake_server_start(&server, "< hi >", "< ok >");
     pose_link_t link;
     char error[POSE_LINK_MESSAGE_LENGTH] = "";
     assert_true(pose_link_open(&link, server.address, false, error));
@@ -131,7 +58,7 @@ static void test_frames_are_heard_in_order(void **state)
     }
     assert_int_equal(pose_link_receive(&link, &frame, 0, error), POSE_LINK_QUIET);
     pose_link_close(&link);
-    stop_server(&server);
+    fake_server_stop(&server);
 }
 
 static void test_what_is_no_frame_is_passed_over(void **state)
@@ -162,118 +89,6 @@ static void test_what_is_no_frame_is_passed_over(void **state)
     close(ends[0]);
 }
 
-static const pose_list_entry_t WALK[] = {
-    {.time_us = 5000000, .pose = {.eye_nm = {1000000, 0, -2000000}, .quaternion_q30 = {1 << 30, 0, 0, 0}}},
-    {.time_us = 5000000, .pose = {.eye_nm = {2000000, 0, -2000000}, .quaternion_q30 = {0, 1 << 30, 0, 0}}},
-    {.time_us = 5030000, .pose = {.eye_nm = {3000000, 0, -2000000}, .quaternion_q30 = {0, 0, 0, -(1 << 30)}}},
-};
-enum { STEPS = sizeof WALK / sizeof WALK[0] };
-static const volatile sig_atomic_t going_on = 0;
-
-/* Reads the next "< send ... >" and moves on behind it. */
-static hal_can_frame_t next_frame(const char **text)
-{
-    hal_can_frame_t frame = {0};
-    unsigned id = 0;
-    unsigned length = 0;
-    unsigned byte[8] = {0};
-    int used = 0;
-    assert_int_equal(sscanf(*text, "< send %x %x %x %x %x %x %x %x %x %x >%n", &id, &length, &byte[0], &byte[1],
-                            &byte[2], &byte[3], &byte[4], &byte[5], &byte[6], &byte[7], &used),
-                     10);
-    frame.id = id;
-    frame.length = (uint8_t)length;
-    for (int i = 0; i < 8; i++)
-        frame.data[i] = (uint8_t)byte[i];
-    *text += used;
-    return frame;
-}
-
-static void test_a_list_arrives_pose_by_pose_with_rising_times(void **state)
-{
-    (void)state;
-    static server_t server;
-    start_server(&server, "< hi >", "< ok >");
-    pose_list_entry_t entry[STEPS];
-    memcpy(entry, WALK, sizeof entry);
-    const pose_list_t list = {.entry = entry, .count = STEPS};
-    pose_link_t link;
-    char error[POSE_LINK_MESSAGE_LENGTH] = "";
-    assert_true(pose_send_check(&(pose_send_t){.list = &list}, error));
-    assert_true(pose_link_open(&link, server.address, false, error));
-    size_t sent = 0;
-    struct timespec before;
-    assert_int_equal(clock_gettime(CLOCK_MONOTONIC, &before), 0);
-    const uint64_t before_us = (uint64_t)before.tv_sec * 1000000 + (uint64_t)before.tv_nsec / 1000;
-    assert_true(pose_send_list(&link, &(pose_send_t){.list = &list, .stop = &going_on}, &sent, error));
-    assert_int_equal(sent, STEPS);
-    pose_link_close(&link);
-    stop_server(&server);
-
-    const char *text = server.heard + strlen("< open can0 >< rawmode >");
-    can_pose_t got[STEPS];
-    for (int i = 0; i < STEPS; i++) {
-        hal_can_frame_t part[CAN_POSE_PARTS];
-        for (int k = 0; k < CAN_POSE_PARTS; k++)
-            part[k] = next_frame(&text);
-        assert_int_equal(can_pose_set_decode(&got[i], part, 0), CAN_CHECK_OK);
-        assert_memory_equal(got[i].pose.eye_nm, WALK[i].pose.eye_nm, sizeof WALK[i].pose.eye_nm);
-        assert_int_equal(got[i].quality, CAN_POSE_TRACKED);
-        assert_int_equal(got[i].counter, (got[0].counter + i) % CAN_E2E_P01_COUNTERS);
-    }
-    assert_string_equal(text, "");
-    /* Never early; how late is the machine's affair. */
-    const uint64_t since_us =
-        (got[2].capture_time_us + CAN_POSE_SET_WRAP_US - before_us % CAN_POSE_SET_WRAP_US) % CAN_POSE_SET_WRAP_US;
-    assert_true(since_us >= 29900);
-}
-
-static volatile sig_atomic_t stop_requested;
-
-static void request_stop(int signal_number)
-{
-    (void)signal_number;
-    stop_requested = 1;
-}
-
-static void test_a_stop_ends_a_list_before_its_end(void **state)
-{
-    (void)state;
-    static server_t server;
-    start_server(&server, "< hi >", "< ok >");
-    pose_list_entry_t entry[STEPS];
-    memcpy(entry, WALK, sizeof entry);
-    entry[2].time_us += INT64_C(3600000000);
-    const pose_list_t list = {.entry = entry, .count = STEPS};
-    pose_link_t link;
-    char error[POSE_LINK_MESSAGE_LENGTH] = "";
-    assert_true(pose_link_open(&link, server.address, false, error));
-    signal(SIGALRM, request_stop);
-    alarm(1);
-    size_t sent = STEPS;
-    assert_true(pose_send_list(&link, &(pose_send_t){.list = &list, .stop = &stop_requested}, &sent, error));
-    pose_link_close(&link);
-    stop_server(&server);
-    assert_true(sent < STEPS);
-    const char *text = server.heard + strlen("< open can0 >< rawmode >");
-    for (size_t i = 0; i < sent * CAN_POSE_PARTS; i++)
-        (void)next_frame(&text);
-    assert_string_equal(text, "");
-}
-
-static void test_poses_that_do_not_fit_are_found_before_sending(void **state)
-{
-    (void)state;
-    pose_list_entry_t entry[STEPS];
-    memcpy(entry, WALK, sizeof entry);
-    entry[1].pose.eye_nm[2] = INT64_C(90000000000);
-    const pose_list_t list = {.entry = entry, .count = STEPS};
-    char error[POSE_LINK_MESSAGE_LENGTH] = "";
-    assert_false(pose_send_check(&(pose_send_t){.list = &list}, error));
-    assert_non_null(strstr(error, "pose 2: farther than 83.886 m"));
-    assert_true(pose_send_check(&(pose_send_t){.list = &list, .fd = true}, error));
-}
-
 static void test_servers_that_answer_wrongly_are_refused(void **state)
 {
     (void)state;
@@ -282,15 +97,15 @@ static void test_servers_that_answer_wrongly_are_refused(void **state)
         {"< hi >", "< error no such bus >", "the answer to \"< open can0 >\" was \"< error no such bus >\""},
     };
     for (size_t i = 0; i < sizeof TALK / sizeof TALK[0]; i++) {
-        static server_t server;
-        start_server(&server, TALK[i][0], TALK[i][1]);
+        static fake_server_t server;
+        fake_server_start(&server, TALK[i][0], TALK[i][1]);
         pose_link_t link = {.socket = 77};
         char error[POSE_LINK_MESSAGE_LENGTH] = "";
         assert_false(pose_link_open(&link, server.address, false, error));
         if (strstr(error, TALK[i][2]) == NULL)
             fail_msg("the reason was \"%s\", expected \"%s\"", error, TALK[i][2]);
         assert_int_equal(link.socket, 77);
-        stop_server(&server);
+        fake_server_stop(&server);
     }
 }
 
@@ -347,9 +162,6 @@ int main(void)
         cmocka_unit_test(test_frames_arrive_as_socketcand_text),
         cmocka_unit_test(test_frames_are_heard_in_order),
         cmocka_unit_test(test_what_is_no_frame_is_passed_over),
-        cmocka_unit_test(test_a_list_arrives_pose_by_pose_with_rising_times),
-        cmocka_unit_test(test_a_stop_ends_a_list_before_its_end),
-        cmocka_unit_test(test_poses_that_do_not_fit_are_found_before_sending),
         cmocka_unit_test(test_servers_that_answer_wrongly_are_refused),
         cmocka_unit_test(test_texts_that_can_name_a_bus),
         cmocka_unit_test(test_bad_names_are_refused_with_advice),
