@@ -58,8 +58,8 @@ void run_files_add(run_files_t *files, const run_record_t *record, const room_t 
             run_pose_text(pose, &report->pose);
         fprintf(files->frames, "%" PRId32 ",", n);
         print_seconds(files->frames, record->frame[n].time_us);
-        fprintf(files->frames, ",%s,%s,%s,%.4f,%.4f,%" PRId32 "\n", room->board[i].name, can_board_state_name(report->state),
-                pose, report->corrected ? report->warp.k_in_q16 / 65536.0 : 0.0,
+        fprintf(files->frames, ",%s,%s,%s,%.4f,%.4f,%" PRId32 "\n", room->board[i].name,
+                can_board_state_name(report->state), pose, report->corrected ? report->warp.k_in_q16 / 65536.0 : 0.0,
                 report->corrected ? report->warp.k_all_q16 / 65536.0 : 0.0,
                 report->corrected ? report->warp.lit_pixels : 0);
         fprintf(files->timings, "%" PRId32 ",%s,%.3f\n", n, room->board[i].name, (double)wall->step_time_us / 1000);

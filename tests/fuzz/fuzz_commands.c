@@ -67,7 +67,8 @@ static void check_wishes(void)
 {
     commands_t *c = &projector.commands;
     fuzz_check((int)c->pattern >= 0 && c->pattern < COMMAND_PATTERNS, "the pattern is one");
-    fuzz_check(c->wanted_latency_ms >= 0 && c->wanted_latency_ms <= COMMAND_MOST_LATENCY_US / 1000, "the latency is in its range");
+    fuzz_check(c->wanted_latency_ms >= 0 && c->wanted_latency_ms <= COMMAND_MOST_LATENCY_US / 1000,
+               "the latency is in its range");
     fuzz_check(warp_has_method(&projector.warp, projector.warp.method), "the board is ready for its method");
     if (c->reboot)
         fuzz_check(c->link.in.length == 7 && memcmp(c->link.in.data, "\x06reboot", 7) == 0, "a reboot has its word");
