@@ -125,7 +125,6 @@ hal_status_t hal_can_receive(hal_can_t *can, hal_can_frame_t *frame)
         hear_of_link(can);
     can->emptied = false;
     for (int i = 0; i < PASSED; i++) {
-        const socketcan_now_t now = socketcan_now();
         const uint32_t dropped_before = can->heard.dropped;
         const int failure = socketcan_socket_receive(can->socket, &can->heard);
         if (failure == 0 && take_heard(can, dropped_before, frame))
@@ -135,7 +134,7 @@ hal_status_t hal_can_receive(hal_can_t *can, hal_can_frame_t *frame)
         can->emptied = true;
         if (failure != EAGAIN)
             return HAL_IO;
-        can->stamp.empty = now;
+        can->stamp.empty = socketcan_now();
         break;
     }
     return can->usable ? HAL_EMPTY : HAL_IO;
