@@ -134,6 +134,11 @@ $(ON_LINUX): $(BUILD)/liblinux.a
 $(ON_LINUX): LIBS := $(BUILD)/liblinux.a $(filter-out %/libsim.a,$(LIBS))
 $(ON_LINUX): LDLIBS += $(LINUX_LIBS)
 
+# libgpiod 2, where there is only 1: declared, and faked by its test.
+$(BUILD)/tests/hal/linux/test_gpio_gpiod_v2: $(call objects,hal/linux/gpio_gpiod_v2.c tests/hal/linux/fake_gpiod_v2.c)
+$(call objects,hal/linux/gpio_gpiod_v2.c tests/hal/linux/fake_gpiod_v2.c): \
+    CPPFLAGS += $(if $(filter 1,$(GPIOD)),-Itests/hal/linux/gpiod_v2)
+
 # What any HAL must do, with the devices of the virtual board.
 $(addprefix $(BUILD)/tests/board/virtual/check_,hal_can hal_gpio): $(BUILD)/tests/board/virtual/check_%: \
     $(BUILD)/obj/tests/hal/test_%.c.o
