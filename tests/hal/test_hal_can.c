@@ -172,6 +172,9 @@ static void own_frames_come_back_if_asked_for(void **state)
             assert_same(&back, &frame);
             assert_true(back.own);
             assert_true(back.time_us >= before_us && back.time_us <= now_us(state));
+            frame.own = false; /* the same once more */
+            assert_int_equal(hal_can_send(controller(state, 0), &frame), HAL_OK);
+            (void)receive(state, 1);
         }
     }
     assert_nothing_there(state, 0);
