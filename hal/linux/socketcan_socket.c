@@ -22,7 +22,7 @@ static bool set(int can, int level, int option, int value)
     return setsockopt(can, level, option, &value, sizeof value) == 0;
 }
 
-/* The kernel forgets the first with the interface that the socket was bound to. */
+/* The kernel forgets the filter of data frames with the interface that the socket was bound to. */
 static bool set_filters(int can)
 {
     const struct can_filter no_remote = {.can_id = 0, .can_mask = CAN_RTR_FLAG};
@@ -58,7 +58,9 @@ hal_status_t socketcan_socket_open(int *made, const can_socketcan_settings_t *se
     if (!set(can, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, 1) || !set(can, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, settings->fd) ||
         !set(can, SOL_SOCKET, SO_RXQ_OVFL, 1) || !set_stamps(can))
         status =
-            board_error(error, "can %s: the kernel refuses an option of its CAN sockets (%s), expected 4.11 or newer",
+            board_error(error,
+                        "can %s: this kernel's CAN sockets refuse an option (%s), expected CAN FD, own frames, time "
+                        "stamps and counts of lost frames: use a newer kernel",
                         settings->interface, strerror(errno));
     else if (!set_queue(can))
         status = board_error(error, "can %s: no room for %d received frames: `sysctl net.core.rmem_max=%d`",

@@ -12,7 +12,7 @@
 
 #include "tests/support/can_pair.h"
 
-enum { KEPT = 256, PATIENCE = 2000, PATIENCE_US = 1000, QUIET_US = 20000 };
+enum { KEPT = 256, BURST = 80, PACE = 4, PATIENCE = 2000, PATIENCE_US = 1000, QUIET_US = 20000 };
 
 typedef struct {
     const char *names[2];
@@ -184,7 +184,7 @@ static void own_frames_come_back_if_asked_for(void **state)
 static void the_queue_takes_whole_frames_or_none(void **state)
 {
     int taken = 0, refused = 0;
-    for (int i = 0; i < KEPT; i++) {
+    for (int i = 0; i < BURST; i++) {
         hal_can_frame_t frame = frame_of(0x123, 8);
         frame.data[0] = (uint8_t)taken;
         const hal_status_t status = hal_can_send(controller(state, 0), &frame);
@@ -192,7 +192,7 @@ static void the_queue_takes_whole_frames_or_none(void **state)
         taken += status == HAL_OK;
         refused += status == HAL_FULL;
     }
-    assert_int_equal(taken + refused, KEPT);
+    assert_int_equal(taken + refused, BURST);
     for (int i = 0; i < taken; i++)
         assert_int_equal(receive(state, 1).data[0], (uint8_t)i);
     assert_nothing_there(state, 1);
@@ -211,6 +211,8 @@ static void received_frames_are_kept(void **state)
                 pass_time(state, PATIENCE_US);
         }
         assert_int_equal(status, HAL_OK);
+        if (i % PACE == 0) /* emulated wires are faster than the controllers on them */
+            pass_time(state, PATIENCE_US);
     }
     pass_time(state, 500000);
     bool seen[KEPT] = {false};
