@@ -1,0 +1,177 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# What people get wrong: each ends with status 1 and one line that says what and how to mend it, and leaves every device
+# as it was, so that the firmware starts as soon as it is right. --check says the same beforehand, and changes nothing.
+# usage: test_bad_input.sh BUILD
+# shellcheck disable=SC2016 # the board expands what is in the commands
+set -u
+. tests/board/virtual/vm.sh
+. tests/board/virtual/checks.sh
+wallwarp=/tree/$1/wallwarp
+
+# write_room NAME PICTURE_WIDTH PICTURE_HEIGHT PANEL_WIDTH PANEL_HEIGHT BUS
+write_room() {
+    cat >"$VM/share/$1" <<ROOM
+camera: {width: $2, height: $3, focal_px: [600, 600], principal_px: [320, 180]}
+boards:
+  - name: wall
+    node: 1
+    method: none+nearest
+    projector: {width: $4, height: $5}
+    wall: {corners_mm: [[-2000, -1125, 0], [2000, -1125, 0], [2000, 1125, 0], [-2000, 1125, 0]]}
+can: $6
+ROOM
+}
+
+# Is every device as if nobody had had it? To be run on the board.
+free='! pgrep wallwarp >/dev/null && ! gpioinfo wallwarp | grep -q wallwarp\" &&
+    [ "$(cat /sys/class/watchdog/watchdog0/state)" = inactive ]'
+
+# said COMMAND: what it said on the board into $said, the last line but for those of this test into $last, its exit
+# status into $status, and whether devices are free afterwards into $freed.
+said() {
+    said=$(vm_run "$1; echo \"status \$?\"; { $free; } && echo free" 2>&1)
+    status=$(sed -n 's/^status //p' <<<"$said")
+    freed=$(grep -cx free <<<"$said")
+    last=$(grep -v '^status [0-9]*$\|^free$' <<<"$said" | tail -n 1)
+}
+
+# refused WHAT COMMAND WORDS...: it ends with status 1, its last line has these words, and devices are free.
+refused() {
+    local what=$1 command=$2 word said status freed last
+    shift 2
+    said "$command"
+    [ "$status $freed" = '1 1' ]
+    ok "$what: status $status, expected 1; devices free: $freed, expected 1; said: $said" $?
+    for word in 'wallwarp: ' "$@"; do
+        [[ $last == *"$word"* ]]
+        ok "$what: said \"$last\", expected \"$word\" in it" $?
+    done
+}
+
+# checked WHAT COMMAND WORDS...: --check says each in a line that begins with "missing", ends with 1, and frees all.
+checked() {
+    local what=$1 command=$2 word said status freed last
+    shift 2
+    said "$command"
+    [ "$status $freed" = '1 1' ]
+    ok "--check, $what: status $status, expected 1; devices free: $freed, expected 1; said: $said" $?
+    for word in "$@"; do
+        grep '^missing ' <<<"$said" | grep -qF -- "$word"
+        ok "--check, $what: expected a missing thing with \"$word\"; said: $said" $?
+    done
+}
+
+run="$wallwarp /share/room.yaml --node 1"
+
+# Seen from the other end of the wire, the firmware says that it lives; then it is ended.
+test_start() {
+    local said status freed last
+    said "$run >/share/run 2>&1 & firmware=\$!
+        candump -n 1 -T 60000 can3,701:7FF >/share/heard; kill \$firmware; wait \$firmware"
+    [ "$status $freed" = '0 1' ] && [ -s "$VM/share/heard" ]
+    ok "$1: the firmware lives and ends on SIGTERM; status $status, free $freed; said: $(cat "$VM/share/run")" $?
+}
+
+test_check_finds_all() {
+    local said status freed last word
+    said "$run --check"
+    [ "$status $freed" = '0 1' ] && ! grep -q '^missing' <<<"$said"
+    ok "--check of what is right: status $status, free $freed; said: $said" $?
+    for word in 'room: /share/room.yaml' 'can can2: 500000 bit/s FD, data 2000000' 'vivid' 'Virtual-1' \
+        'LED, line 0' 'lamp, line 3' 'i6300ESB' 'real-time priority' 'locked memory' 'CAP_NET_ADMIN' 'arch_sys_counter'; do
+        grep '^found\|^advice' <<<"$said" | grep -qF "$word"
+        ok "--check finds $word; said: $said" $?
+    done
+}
+
+test_room() {
+    refused "no room file" "$wallwarp /share/none.yaml --node 1" /share/none.yaml
+    vm_run 'sed s/corners_mm/corner_mm/ /share/room.yaml >/share/typo.yaml'
+    refused "a wrong room file" "$wallwarp /share/typo.yaml --node 1" /share/typo.yaml corner_mm
+    refused "a wrong node" "$wallwarp /share/room.yaml --node 9" 'no board has node 9'
+}
+
+test_bus() {
+    refused "no such bus" "$run --can can9" can9 'ip link'
+    refused "a bus that is none" "$run --can lo" lo CAN
+    vm_run 'ip link set can2 down'
+    refused "a bus that is down" "$run" can2 'is down' 'ip link set can2 up'
+    checked "a bus that is down" "$run --check" 'is down'
+    vm_run 'ip link set can2 up txqueuelen 64 type can bitrate 250000 dbitrate 2000000 fd on restart-ms 100'
+    refused "another bit rate" "$run" can2 250000 500000 'ip link set can2'
+    checked "another bit rate" "$run --check" 250000
+    vm_run 'ip link set can2 down; ip link set can2 up txqueuelen 64 type can bitrate 500000 fd off restart-ms 100'
+    refused "a classic bus in a room with FD" "$run" can2 FD 'fd on'
+    vm_run 'ip link set can2 down
+        ip link set can2 up txqueuelen 64 type can bitrate 500000 dbitrate 2000000 fd on restart-ms 100'
+}
+
+test_camera() {
+    refused "no such video device" "$run --camera v4l2:/dev/video99" video99
+    checked "no such video device" "$run --check --camera v4l2:/dev/video99" video99
+    refused "no such video name" "$run --camera v4l2:nonsense" nonsense
+    refused "no source of video" "$run --camera nonsense" nonsense v4l2:
+    refused "no such sensor" "$run --camera libcamera:nonsense" nonsense
+    refused "a size that the camera has not" "$wallwarp /share/size.yaml --node 1" 642x362
+    checked "a size that the camera has not" "$wallwarp --check /share/size.yaml --node 1" 642x362
+    vm_run 'v4l2-ctl -d vivid --set-fmt-video=width=640,height=360 >/dev/null 2>&1
+        v4l2-ctl -d /dev/video0 --stream-mmap --stream-to=/dev/null >/dev/null 2>&1 & echo $! >/share/taker; sleep 2'
+    refused "a camera that another program has" "$run --camera v4l2:/dev/video0" video0
+    vm_run 'kill $(cat /share/taker); sleep 1'
+}
+
+test_display() {
+    refused "no such connector" "$run --display HDMI-A-9" HDMI-A-9 Virtual-1
+    checked "no such connector" "$run --check --display HDMI-A-9" HDMI-A-9
+    refused "a mode that the projector has not" "$wallwarp /share/mode.yaml --node 1" 1234x568 1280x800
+    checked "a mode that the projector has not" "$wallwarp --check /share/mode.yaml --node 1" 1234x568
+    vm_run 'sleep 1000 | modetest -M virtio_gpu -s Virtual-1:640x480 >/dev/null 2>&1 & sleep 3'
+    refused "a display that another program has" "$run" card0 modetest
+    checked "a display that another program has" "$run --check" modetest
+    vm_run 'pkill modetest; pkill sleep; sleep 1'
+}
+
+test_lines() {
+    vm_run 'gpiomon wallwarp 2 >/dev/null 2>&1 & echo $! >/share/taker; sleep 1'
+    refused "a line that another program has" "$run" wallwarp gpiomon
+    checked "a line that another program has" "$run --check" gpiomon
+    refused "outputs off while a line is taken" "$wallwarp --off" gpiomon
+    vm_run 'kill $(cat /share/taker); sleep 1'
+    vm_run "$wallwarp --off"
+    ok "--off" $?
+}
+
+# While another program has the watchdog, it is not free, whatever the firmware does.
+test_watchdog() {
+    local free='! pgrep wallwarp >/dev/null'
+    vm_run 'busybox watchdog -F -T 60 -t 5 /dev/watchdog0 >/dev/null 2>&1 & echo $! >/share/taker; sleep 1'
+    refused "a watchdog that another program has" "$run" watchdog0
+    checked "a watchdog that another program has" "$run --check" busybox
+    vm_run 'kill $(cat /share/taker); sleep 1'
+}
+
+test_rights() {
+    local nobody='setpriv --reuid=65534 --regid=65534 --clear-groups --bounding-set=-all --inh-caps=-all'
+    refused "no rights" "$nobody $run" realtime LimitRTPRIO
+    checked "no rights" "$nobody $run --check" LimitRTPRIO LimitMEMLOCK 'usermod -aG video' 'usermod -aG gpio'
+}
+
+vm_use || exit 1
+write_room room.yaml 640 360 640 480 '{bitrate: 500000, data_bitrate: 2000000, fd: true}'
+write_room size.yaml 642 362 640 480 '{bitrate: 500000, data_bitrate: 2000000, fd: true}'
+write_room mode.yaml 640 360 1234 568 '{bitrate: 500000, data_bitrate: 2000000, fd: true}'
+vm_run 'ip link set can2 up txqueuelen 64 type can bitrate 500000 dbitrate 2000000 fd on restart-ms 100
+    ip link set can3 up txqueuelen 64 type can bitrate 500000 dbitrate 2000000 fd on restart-ms 100'
+test_start "at first"
+test_check_finds_all
+test_room
+test_bus
+test_camera
+test_display
+test_lines
+test_watchdog
+test_rights
+test_start "after all that was wrong"
+vm_run 'ip link set can2 down; ip link set can3 down'
+ok_end
