@@ -289,8 +289,8 @@ $(BUILD)/bench_x86: $(call objects,$(wildcard tests/bench/*_x86.c tests/bench/x8
 $(BUILD)/obj/%.cpp.o: %.cpp | $(SYSROOT:%=%.made)
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  CXX   $<")
-	$(Q)$(CXX) $(CPPFLAGS) -isystem $(SYSROOT)/usr/include/opencv4 -isystem $(SYSROOT)/usr/include/libcamera -std=c++17 $(OPT) -g -Wall -Wextra \
-	    -Werror -Wpedantic -Wshadow -Wconversion -Wsign-conversion $(MACHINE) -c $< -o $@
+	$(Q)$(CXX) $(CPPFLAGS) $(addprefix -isystem $(SYSROOT)/usr/include/,opencv4 libcamera) -std=c++17 $(OPT) -g \
+	    -Wall -Wextra -Werror -Wpedantic -Wshadow -Wconversion -Wsign-conversion $(MACHINE) -c $< -o $@
 
 # Everything but the CSV goes to stderr. BASELINE=new makes these counts the ones that later runs are held to.
 ARM      := build/variants/aarch64-linux-gnu-gcc-O3
