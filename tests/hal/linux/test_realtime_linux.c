@@ -68,7 +68,7 @@ static void who_may_gets_both(void **state)
 }
 
 /* Take this process what lets it pass a limit, and lower the limit. */
-static bool take_right(unsigned capability, int limit, rlim_t to)
+static bool take_right(unsigned capability, __rlimit_resource_t limit, rlim_t to)
 {
     struct __user_cap_header_struct header = {.version = _LINUX_CAPABILITY_VERSION_3};
     struct __user_cap_data_struct sets[_LINUX_CAPABILITY_U32S_3];
@@ -80,7 +80,7 @@ static bool take_right(unsigned capability, int limit, rlim_t to)
 }
 
 /* Of a process of its own without that right. */
-static void line_without(unsigned capability, int limit, rlim_t to, char line[HAL_BOARD_ERROR_LENGTH])
+static void line_without(unsigned capability, __rlimit_resource_t limit, rlim_t to, char line[HAL_BOARD_ERROR_LENGTH])
 {
     int pipe_ends[2], status;
     assert_int_equal(pipe(pipe_ends), 0);
