@@ -121,6 +121,22 @@ test_camera() {
     vm_run 'kill $(cat /share/taker); sleep 1'
 }
 
+# The firmware goes on: it says what comes and what it expects, once, and takes pictures again when they are right.
+test_camera_that_changes() {
+    local said status freed last
+    vm_run 'v4l2-ctl -d /dev/video0 -i 3 >/dev/null; v4l2-ctl -d /dev/video0 -c dv_timings_signal_mode=4
+        v4l2-ctl -d /dev/video0 -c dv_timings=0'
+    said "$wallwarp /share/hdmi.yaml --node 1 >/share/run 2>&1 & firmware=\$!
+        says() { for try in \$(seq 100); do grep -q \"\$1\" /share/run && break; sleep 0.2; done; }
+        candump -n 1 -T 60000 can3,701:7FF >/dev/null
+        v4l2-ctl -d /dev/video0 -c dv_timings=2; says 720x480p
+        v4l2-ctl -d /dev/video0 -c dv_timings=0; says again; kill \$firmware; wait \$firmware"
+    [ "$status $freed" = '0 1' ] && [ "$(grep -c 'sends 720x480p, expected 640x480p' "$VM/share/run")" = 1 ] &&
+        [ "$(grep -c 'delivers pictures again' "$VM/share/run")" = 1 ]
+    ok "a camera that changes its size: status $status, free $freed; said: $(cat "$VM/share/run")" $?
+    vm_run 'v4l2-ctl -d /dev/video0 -c dv_timings_signal_mode=0; v4l2-ctl -d /dev/video0 -i 0 >/dev/null'
+}
+
 test_display() {
     refused "no such connector" "$run --display HDMI-A-9" HDMI-A-9 Virtual-1
     checked "no such connector" "$run --check --display HDMI-A-9" HDMI-A-9
@@ -160,6 +176,7 @@ test_rights() {
 vm_use || exit 1
 write_room room.yaml 640 360 640 480 '{bitrate: 500000, data_bitrate: 2000000, fd: true}'
 write_room size.yaml 642 362 640 480 '{bitrate: 500000, data_bitrate: 2000000, fd: true}'
+write_room hdmi.yaml 640 480 640 480 '{bitrate: 500000, data_bitrate: 2000000, fd: true}'
 write_room mode.yaml 640 360 1234 568 '{bitrate: 500000, data_bitrate: 2000000, fd: true}'
 vm_run 'ip link set can2 up txqueuelen 64 type can bitrate 500000 dbitrate 2000000 fd on restart-ms 100
     ip link set can3 up txqueuelen 64 type can bitrate 500000 dbitrate 2000000 fd on restart-ms 100'
@@ -168,6 +185,7 @@ test_check_finds_all
 test_room
 test_bus
 test_camera
+test_camera_that_changes
 test_display
 test_lines
 test_watchdog
