@@ -14,16 +14,16 @@
 #include <string>
 #include <vector>
 
-#include <linux/dma-buf.h>
 #include <poll.h>
-#include <sys/ioctl.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <libcamera/libcamera.h>
 
+#include "hal/linux/camera_libcamera_choice.hpp"
+
 extern "C" {
 #include "hal/linux/camera_clock.h"
+#include "hal/linux/camera_dmabuf.h"
 #include "hal/linux/camera_libcamera.h"
 #include "hal/linux/camera_unplugged.h"
 }
@@ -33,21 +33,6 @@ namespace
 
 constexpr int poll_ms = 500, least_buffers = 4; /* some pipelines have no more */
 constexpr int64_t lost_us = 5000000;
-
-struct format_t {
-    libcamera::PixelFormat fourcc;
-    picture_format_t format;
-};
-
-/* The best first: full colour, then the fewest bytes. libcamera's names are DRM's, as ours. */
-constexpr std::array<format_t, 6> formats = {{
-    {libcamera::formats::XRGB8888, PICTURE_XRGB8888},
-    {libcamera::formats::RGB888, PICTURE_RGB888},
-    {libcamera::formats::BGR888, PICTURE_BGR888},
-    {libcamera::formats::YUYV, PICTURE_YUYV},
-    {libcamera::formats::UYVY, PICTURE_UYVY},
-    {libcamera::formats::NV12, PICTURE_NV12},
-}};
 
 /* From the library's threads to ours. */
 struct completed_t {
@@ -65,7 +50,7 @@ struct device_t {
     std::unique_ptr<libcamera::CameraConfiguration> configuration;
     std::unique_ptr<libcamera::FrameBufferAllocator> allocator;
     std::vector<std::unique_ptr<libcamera::Request>> requests; /* by buffer; its number is the cookie */
-    bool acquired = false, started = false;
+    bool started = false;
     bool stuck = false; /* unplugged, and the library does not know */
     picture_t picture;  /* without data */
     int64_t picture_us; /* when the last one came, or the device began */
@@ -111,133 +96,30 @@ template <typename Function> bool guarded(char error[HAL_BOARD_ERROR_LENGTH], co
     }
 }
 
-libcamera::StreamConfiguration &stream_of(const device_t &device)
+libcamera::Stream *stream_of(const device_t &device)
 {
-    return device.configuration->at(0);
+    return device.configuration->at(0).stream();
 }
 
-/* A pass of the CPU over the memory of a buffer begins or ends; the planes may share it. */
-void sync_caches(const libcamera::FrameBuffer &buffer, uint64_t edge)
-{
-    for (const auto &plane : buffer.planes()) {
-        struct dma_buf_sync sync = {edge | DMA_BUF_SYNC_READ};
-        (void)ioctl(plane.fd.get(), DMA_BUF_IOCTL_SYNC, &sync); /* refused where there is nothing to do */
-    }
-}
+struct pieces_t {
+    std::array<camera_dmabuf_t, PICTURE_MAX_PLANES> piece;
+    size_t count; /* 0: more than a picture has */
+};
 
-bool choose_camera(device_t &device, char error[HAL_BOARD_ERROR_LENGTH])
+pieces_t pieces_of(const libcamera::FrameBuffer &buffer)
 {
-    const std::string which = device.wanted.name.which;
-    const auto cameras = device.manager->cameras();
-    for (size_t i = 0; i < cameras.size() && !device.camera; i++) {
-        const auto model = cameras[i]->properties().get(libcamera::properties::Model);
-        if (which == std::to_string(i) || which == cameras[i]->id() || (model && which == *model))
-            device.camera = cameras[i];
-    }
-    if (!device.camera)
-        return camera_fail(error, "is not among the %zu cameras here; plug it in, or choose one that `cam -l` lists",
-                           cameras.size());
-    const int failure = device.camera->acquire();
-    if (failure != 0)
-        return camera_fail(error, failure == -EBUSY ? "is used by another program; close that" : "can't be had: %s",
-                           strerror(-failure));
-    device.acquired = true;
-    return true;
-}
-
-/* BT.601 or BT.709, of limited range; a pipeline that says nothing means V4L2's default, BT.601. */
-bool judge_colours(device_t &device, char error[HAL_BOARD_ERROR_LENGTH])
-{
-    using libcamera::ColorSpace;
-    const auto &space = stream_of(device).colorSpace;
-    device.picture.matrix =
-        space && space->ycbcrEncoding == ColorSpace::YcbcrEncoding::Rec709 ? PICTURE_BT709 : PICTURE_BT601;
-    if (!picture_is_yuv(device.picture.format) || !space)
-        return true;
-    if (space->range == ColorSpace::Range::Limited && (space->ycbcrEncoding == ColorSpace::YcbcrEncoding::Rec709 ||
-                                                       space->ycbcrEncoding == ColorSpace::YcbcrEncoding::Rec601))
-        return true;
-    return camera_fail(error, "gives colours %s, expected BT.601 or BT.709 of limited range; try another format",
-                       space->toString().c_str());
-}
-
-bool try_format(device_t &device, const format_t &format, char error[HAL_BOARD_ERROR_LENGTH])
-{
-    const char *name = camera_format_name(format.format);
-    const auto width = static_cast<unsigned>(device.wanted.width), height = static_cast<unsigned>(device.wanted.height);
-    device.configuration = device.camera->generateConfiguration({libcamera::StreamRole::VideoRecording});
-    if (!device.configuration || device.configuration->empty())
-        return camera_fail(error, "has no video stream; choose another camera of `cam -l`");
-    libcamera::StreamConfiguration &stream = stream_of(device);
-    stream.pixelFormat = format.fourcc;
-    stream.size = {width, height};
-    stream.bufferCount = CAMERA_BUFFERS;
-    if (picture_is_yuv(format.format))
-        stream.colorSpace = libcamera::ColorSpace::Rec709;
-    if (device.configuration->validate() == libcamera::CameraConfiguration::Invalid)
-        return camera_fail(error, "has no valid configuration for %s; see `cam -c 1 -I`", name);
-    if (stream.pixelFormat != format.fourcc)
-        return false; /* an earlier reason may tell more */
-    if (stream.size.width != width || stream.size.height != height)
-        return camera_fail(error, "gives %s of %ux%u at nearest, expected %ux%u as the room file states", name,
-                           stream.size.width, stream.size.height, width, height);
-    device.picture = {};
-    device.picture.format = format.format;
-    device.picture.width = device.wanted.width;
-    device.picture.height = device.wanted.height;
-    return judge_colours(device, error);
-}
-
-bool configure(device_t &device, char error[HAL_BOARD_ERROR_LENGTH])
-{
-    (void)camera_fail(error, "gives none of the formats that are wanted; see `cam -c 1 -I` and README.md");
-    const camera_name_t &name = device.wanted.name;
-    const bool found = std::any_of(formats.begin(), formats.end(), [&](const format_t &format) {
-        return (name.any_format || name.format == format.format) && try_format(device, format, error);
-    });
-    if (!found)
-        return false;
-    const int failure = device.camera->configure(device.configuration.get());
-    if (failure != 0)
-        return camera_fail(error, "can't be configured: %s; see LIBCAMERA_LOG_LEVELS=*:DEBUG", strerror(-failure));
-    const unsigned stride = stream_of(device).stride;
-    device.picture.stride[0] = device.picture.stride[1] = stride > INT_MAX ? 0 : static_cast<int32_t>(stride);
-    return picture_is_valid(&device.picture) ||
-           camera_fail(error, "gives rows of %u bytes, which no picture has", stride);
-}
-
-/* Where the planes of a picture are in a buffer: the memory of each plane, from the start of its file. */
-size_t end_of(const libcamera::FrameBuffer::Plane &plane)
-{
-    return size_t{plane.offset} + plane.length;
-}
-
-bool map_buffer(device_t &device, const libcamera::FrameBuffer &buffer, int number, char error[HAL_BOARD_ERROR_LENGTH])
-{
-    const auto &planes = buffer.planes();
-    const size_t luma = static_cast<size_t>(device.picture.stride[0]) * static_cast<size_t>(device.picture.height);
-    const bool chroma_apart = device.picture.format == PICTURE_NV12 && planes.size() == 2;
-    const size_t first = luma + (device.picture.format == PICTURE_NV12 && !chroma_apart ? luma / 2 : 0);
-    if (planes.size() != (chroma_apart ? 2U : 1U) || planes[0].length < first ||
-        (chroma_apart && planes[1].length < luma / 2))
-        return camera_fail(error, "has buffers too small for the picture");
-    camera_map_t map[PICTURE_MAX_PLANES] = {};
-    for (size_t i = 0; i < planes.size(); i++) {
-        void *address = mmap(nullptr, end_of(planes[i]), PROT_READ, MAP_SHARED, planes[i].fd.get(), 0);
-        if (address == MAP_FAILED) {
-            if (i == 1)
-                (void)munmap(map[0].address, map[0].length);
-            return camera_fail(error, "can't map buffer %d: %s", number, strerror(errno));
-        }
-        map[i] = {address, end_of(planes[i])};
-    }
-    camera_exchange_map(device.wanted.exchange, number, map);
-    return true;
+    pieces_t pieces = {};
+    for (const auto &plane : buffer.planes())
+        if (pieces.count < pieces.piece.size())
+            pieces.piece[pieces.count++] = {plane.fd.get(), plane.offset, plane.length};
+    if (buffer.planes().size() > pieces.piece.size())
+        pieces.count = 0;
+    return pieces;
 }
 
 bool make_buffers(device_t &device, char error[HAL_BOARD_ERROR_LENGTH])
 {
-    libcamera::Stream *stream = stream_of(device).stream();
+    libcamera::Stream *stream = stream_of(device);
     device.allocator = std::make_unique<libcamera::FrameBufferAllocator>(device.camera);
     const int count = device.allocator->allocate(stream);
     if (count < least_buffers || count > CAMERA_BUFFERS_MAX)
@@ -248,7 +130,9 @@ bool make_buffers(device_t &device, char error[HAL_BOARD_ERROR_LENGTH])
         auto request = device.camera->createRequest(static_cast<uint64_t>(number));
         if (!request || request->addBuffer(stream, buffer.get()) != 0)
             return camera_fail(error, "makes no request for buffer %d; see LIBCAMERA_LOG_LEVELS=*:DEBUG", number);
-        if (!map_buffer(device, *buffer, number, error))
+        const pieces_t pieces = pieces_of(*buffer);
+        if (!camera_dmabuf_map(device.wanted.exchange, number, pieces.piece.data(), pieces.count, &device.picture,
+                               error))
             return false;
         device.requests.push_back(std::move(request));
     }
@@ -289,9 +173,8 @@ void close_all(device_t &device)
     device.requests.clear();
     device.allocator.reset();
     device.configuration.reset();
-    if (device.acquired)
+    if (device.camera)
         device.camera->release();
-    device.acquired = false;
     device.camera.reset();
     if (device.manager)
         device.manager->stop();
@@ -302,13 +185,14 @@ void close_all(device_t &device)
 
 const libcamera::FrameBuffer &buffer_of(const device_t &device, const libcamera::Request &request)
 {
-    return *request.findBuffer(stream_of(device).stream());
+    return *request.findBuffer(stream_of(device));
 }
 
 bool queue_again(device_t &device, int number)
 {
     libcamera::Request &request = *device.requests[static_cast<size_t>(number)];
-    sync_caches(buffer_of(device, request), DMA_BUF_SYNC_END);
+    for (const auto &plane : buffer_of(device, request).planes())
+        camera_dmabuf_end_read(plane.fd.get());
     request.reuse(libcamera::Request::ReuseBuffers);
     return device.camera->queueRequest(&request) == 0;
 }
@@ -319,21 +203,16 @@ bool deliver(device_t &device, libcamera::Request &request)
     const int number = static_cast<int>(request.cookie());
     const libcamera::FrameBuffer &buffer = buffer_of(device, request);
     const libcamera::FrameMetadata &about = buffer.metadata();
-    sync_caches(buffer, DMA_BUF_SYNC_START);
+    for (const auto &plane : buffer.planes())
+        camera_dmabuf_begin_read(plane.fd.get());
     if (about.status != libcamera::FrameMetadata::FrameSuccess)
         return queue_again(device, number);
     const auto sensor_ns = request.metadata().get(libcamera::controls::SensorTimestamp);
     const int64_t stamp_us = (sensor_ns ? *sensor_ns : static_cast<int64_t>(about.timestamp)) / 1000;
     hal_camera_frame_t frame = {
         device.picture, camera_stamp_us(stamp_us, camera_now_us(), camera_clock_us(CLOCK_BOOTTIME)), about.sequence};
-    const auto &planes = buffer.planes();
-    for (size_t i = 0; i < planes.size(); i++) {
-        const camera_map_t memory = camera_exchange_memory(device.wanted.exchange, number, static_cast<int>(i));
-        frame.picture.data[i] = static_cast<uint8_t *>(memory.address) + planes[i].offset;
-    }
-    if (device.picture.format == PICTURE_NV12 && planes.size() == 1)
-        frame.picture.data[1] =
-            frame.picture.data[0] + ptrdiff_t{device.picture.stride[0]} * ptrdiff_t{device.picture.height};
+    const pieces_t pieces = pieces_of(buffer);
+    camera_dmabuf_place(&frame.picture, device.wanted.exchange, number, pieces.piece.data(), pieces.count);
     device.picture_us = camera_now_us();
     const int older = camera_exchange_put(device.wanted.exchange, number, &frame);
     return older == CAMERA_NO_BUFFER || queue_again(device, older);
@@ -412,8 +291,12 @@ bool open_device(void *source, char error[HAL_BOARD_ERROR_LENGTH])
         const int failure = device.manager->start();
         if (failure != 0)
             return camera_fail(error, "libcamera does not start: %s; see `cam -l`", strerror(-failure));
-        return choose_camera(device, error) && configure(device, error) && make_buffers(device, error) &&
-               start(device, error);
+        const camera_wanted_t &wanted = device.wanted;
+        device.camera = libcamera_choose(*device.manager, wanted.name.which, error);
+        if (!device.camera)
+            return false;
+        device.configuration = libcamera_configure(*device.camera, wanted, device.picture, error);
+        return device.configuration && make_buffers(device, error) && start(device, error);
     });
     if (!good)
         close_device(source);

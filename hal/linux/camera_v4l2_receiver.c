@@ -28,7 +28,8 @@ bool camera_v4l2_offer(int file, const camera_wanted_t *wanted, char error[HAL_B
     if (ioctl(file, VIDIOC_G_INPUT, &input) != 0)
         input = 0; /* a sub-device: its first pad */
     struct v4l2_edid edid = {.pad = (uint32_t)input, .blocks = EDID_BLOCKS, .edid = shown};
-    if (ioctl(file, VIDIOC_G_EDID, &edid) == 0 && edid.blocks == EDID_BLOCKS && memcmp(shown, ours, sizeof ours) == 0)
+    if (ioctl(file, VIDIOC_G_EDID, &edid) == 0 && edid.blocks == EDID_BLOCKS &&
+        memcmp(shown, ours, EDID_BLOCK_BYTES) == 0) /* into the second, drivers may write an address of their own */
         return true;
     edid = (struct v4l2_edid){.pad = (uint32_t)input, .blocks = EDID_BLOCKS, .edid = ours};
     if (ioctl(file, VIDIOC_S_EDID, &edid) == 0 || errno == ENOTTY || errno == EINVAL)
