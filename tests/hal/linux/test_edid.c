@@ -92,6 +92,7 @@ static void any_size_is_read_back(void **state)
         if (!edid_mode(&mode, width, height, rate, 1))
             continue;
         offered++;
+        mode.sync_px += (int32_t)rng_int(&rng, 0, 400);
         uint8_t edid[EDID_BYTES], sum[EDID_BLOCKS] = {0};
         edid_write(edid, &mode);
         for (int byte = 0; byte < EDID_BYTES; byte++)
