@@ -143,6 +143,9 @@ $(call objects,hal/linux/gpio_gpiod_v2.c tests/hal/linux/fake_gpiod_v2.c): \
 $(addprefix $(BUILD)/tests/board/virtual/check_,hal_can hal_gpio): $(BUILD)/tests/board/virtual/check_%: \
     $(BUILD)/obj/tests/hal/test_%.c.o
 
+$(BUILD)/tests/board/virtual/probe_camera: $(call objects,$(LINUX_CXX))
+$(BUILD)/tests/board/virtual/probe_camera: LDLIBS += -lcamera -lcamera-base -lstdc++
+
 $(BUILD)/wallwarp: $(call objects,firmware/main.c board/$(BOARD)/board.c $(if $(filter linux,$(HAL)),$(LINUX_CXX))) $(LIBS)
 	$(call link,$(if $(filter linux,$(HAL)),-lcamera -lcamera-base -lstdc++))
 $(BUILD)/wallwarp-%: $(BUILD)/obj/sim/wallwarp_%.c.o $(LIBS)
@@ -253,7 +256,7 @@ VIRTUAL_TESTS    := $(wildcard tests/board/virtual/test_*.sh)
 
 .PHONY: test-board virtual-programs
 test-board: setup-board ## Boot a virtual arm64 board and run the firmware in it; the last line says how many tests passed
-	$(Q)$(MAKE) --no-print-directory programs
+	$(Q)$(MAKE) --no-print-directory programs build/host/tests/hal/linux/print_edid
 	$(Q)$(MAKE) --no-print-directory BOARD=qemu-virt virtual-programs
 	$(Q)tests/board/virtual/run.sh build/test-board build/qemu-virt $(VIRTUAL_TESTS)
 virtual-programs: programs $(VIRTUAL_PROGRAMS) build/board-kernel/initramfs.gz

@@ -6,7 +6,7 @@
 // Lines on stdout:
 //   picture SEQUENCE time US age US FORMAT MATRIX stride BYTES pixel HEX    HEX: of the middle, and of its chroma
 //   status io | status ok                                                   when it changes
-//   end pictures N gaps N full N rss KB to KB heap BYTES to BYTES threads NAME... from the 20th picture on to the last
+//   end pictures N gaps N full N rss KB to KB heap BYTES to BYTES threads NAME...    from the 20th picture to the last
 // Exit status: 0 when all pictures came, 1 when time was over, 2 when the camera could not be opened.
 #include <dirent.h>
 #include <inttypes.h>
