@@ -18,8 +18,8 @@
  * Times are of the sensor's first line (SensorTimestamp), on CLOCK_MONOTONIC (camera_stamp_us()).
  *
  * After a loss the whole library is started anew with each attempt to open. A USB camera comes back when it is plugged
- * in again; that needs udev, whose messages the library waits for. A sensor that fails while it runs stays lost until the
- * program is started again, which is said once: libcamera (0.0.3) would end the program when it is closed.
+ * in again; that needs udev, whose messages the library waits for. A sensor that fails while it runs stays lost until
+ * the program is started again, which is said once: libcamera (0.0.3) would end the program when it is closed.
  *
  * Messages of the library below errors are kept off stderr, unless LIBCAMERA_LOG_LEVELS is set.
  */

@@ -5,7 +5,8 @@
 
 #include <stdbool.h>
 
-/** @return Is a file open of a V4L2 device that the kernel has no more? Looks through all open files: no frame's work. */
+/** @return Is a file open of a V4L2 device that the kernel has no more? Looks through all open files: no frame's work.
+ */
 bool camera_unplugged(void);
 
 #endif
