@@ -75,6 +75,10 @@ build/sysroot.made: board/sysroot.sh
 	$(Q)board/sysroot.sh build/sysroot
 	$(Q)touch $@
 
+.PHONY: boards
+boards: setup-board ## Build firmware and tools for every board, each into build/NAME
+	$(Q)for board in $(BOARDS); do $(MAKE) --no-print-directory BOARD=$$board programs || exit 1; done
+
 .PHONY: demo
 demo: setup-demo ## Run a room of three walls and a floor, and write the page build/demo/index.html
 	$(Q)$(MAKE) --no-print-directory programs

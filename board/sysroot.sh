@@ -19,11 +19,13 @@ rm -rf "$folder" "$folder.part"
 mkdir -p "$(dirname "$folder")"
 mode=root
 [ "$(id -u)" = 0 ] || mode=chrootless
+# bin, sbin and lib are links into usr, as on every Debian system.
+# shellcheck disable=SC2016 # $1 is mmdebstrap's
+link_usr='for f in bin sbin lib; do mkdir -p "$1/usr/$f"; ln -s "usr/$f" "$1/$f"; done'
 # shellcheck disable=SC2086 # one word for each package
 packages=$(printf '%s,' $libraries $programs)
 if ! mmdebstrap --mode="$mode" --architectures=arm64 --variant=extract \
-    --hook-dir=/usr/share/mmdebstrap/hooks/merged-usr --include="${packages%,}" \
-    bookworm "$folder.part" 2>"$folder.log"; then
+    --setup-hook="$link_usr" --include="${packages%,}" bookworm "$folder.part" 2>"$folder.log"; then
     echo "sysroot: mmdebstrap failed; the end of what it said, all of which is in $folder.log:" >&2
     tail -n 15 "$folder.log" >&2
     exit 1
