@@ -45,8 +45,11 @@ HAL_C      := $(wildcard $(addprefix hal/linux/,workers_pthread.c key_file.c ran
 GPIOD      := $(if $(shell grep -s gpiod_request_config $(SYSROOT)/usr/include/gpiod.h),2,1)
 LINUX_C    := $(filter-out $(HAL_C) hal/linux/gpio_gpiod_v%.c,$(wildcard hal/linux/*.c)) \
               $(wildcard hal/linux/gpio_gpiod_v$(GPIOD).c)
-LINUX_CXX  := $(wildcard hal/linux/*.cpp)
 LINUX_LIBS := -lgpiod -lmnl -ldrm -lsystemd -ludev
+ifeq ($(HAL),linux)
+LINUX_C    += $(wildcard hal/linux/*.cpp)
+LINUX_LIBS += -lcamera -lcamera-base -lstdc++
+endif
 FIRMWARE_C := $(filter-out $(MAINS),$(wildcard firmware/*.c firmware/*/*.c))
 SIM_C      := $(filter-out $(MAINS),$(wildcard sim/*.c sim/*/*.c))
 # What is in tests/board/virtual runs on the virtual board: see test-board.
@@ -147,11 +150,8 @@ $(call objects,hal/linux/gpio_gpiod_v2.c tests/hal/linux/fake_gpiod_v2.c): \
 $(addprefix $(BUILD)/tests/board/virtual/check_,hal_can hal_gpio): $(BUILD)/tests/board/virtual/check_%: \
     $(BUILD)/obj/tests/hal/test_%.c.o
 
-$(BUILD)/tests/board/virtual/probe_camera: $(call objects,$(LINUX_CXX))
-$(BUILD)/tests/board/virtual/probe_camera: LDLIBS += -lcamera -lcamera-base -lstdc++
-
-$(BUILD)/wallwarp: $(call objects,firmware/main.c board/$(BOARD)/board.c $(if $(filter linux,$(HAL)),$(LINUX_CXX))) $(LIBS)
-	$(call link,$(if $(filter linux,$(HAL)),-lcamera -lcamera-base -lstdc++))
+$(BUILD)/wallwarp: $(call objects,firmware/main.c board/$(BOARD)/board.c) $(LIBS)
+	$(call link)
 $(BUILD)/wallwarp-%: $(BUILD)/obj/sim/wallwarp_%.c.o $(LIBS)
 	$(call link)
 # A test's own hal_can_*() comes before the simulator's in the archives.
