@@ -92,6 +92,9 @@ static void a_late_answer_counts_for_nothing_else(void **state)
     const uint32_t second = kms_kernel_show(HAL_OK);
     assert_int_equal(kms_kernel.flown.framebuffer, second);
     assert_int_equal(hal_display_wait_vblank(&kms_display), HAL_IO);
+    kms_kernel_answer(late); /* both at once */
+    kms_kernel_answer(kms_kernel.token);
+    assert_int_equal(hal_display_wait_vblank(&kms_display), HAL_OK);
 }
 
 static void a_refused_picture_is_given_back(void **state)
