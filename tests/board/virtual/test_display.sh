@@ -6,19 +6,9 @@
 set -u
 build=${1:?usage: test_display.sh BUILD_FOLDER_OF_THE_BOARD}
 . tests/board/virtual/vm.sh
-passed=0 failed=0
+. tests/board/virtual/checks.sh
 probe=/tree/$build/tests/board/virtual/probe_display
-scanout=/tree/$build/tests/board/virtual/scanout
-
-# check WHAT STATUS
-check() {
-    if [ "$2" -eq 0 ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $1"
-    fi
-}
+scanout=/tree/$build/tests/board/virtual/probe_scanout
 
 # see CARD FILE: what the card shows.
 see() {
@@ -56,21 +46,21 @@ test_picture() {
     see "$1" "$VM/before.ppm"
     for seed in 1 2; do
         hold "$1" $seed
-        check "$1: a picture is shown" $?
+        ok "$1: a picture is shown" $?
         see "$1" "$VM/seen.ppm"
         vm_run "$probe picture 640 480 $seed" >"$VM/drawn.ppm"
         cmp "$VM/drawn.ppm" "$VM/seen.ppm"
-        check "$1: what is seen is what was drawn, byte for byte" $?
+        ok "$1: what is seen is what was drawn, byte for byte" $?
         release
     done
     see "$1" "$VM/after.ppm"
     cmp "$VM/before.ppm" "$VM/after.ppm"
-    check "$1: afterwards the display is as it was" $?
+    ok "$1: afterwards the display is as it was" $?
 }
 
 test_frames() {
     vm_run -t 120 "$probe frames $1:auto 640 480 60 60"
-    check "$1: calls and blanks are as the contract says" $?
+    ok "$1: calls and blanks are as the contract says" $?
 }
 
 # Another program, no such mode, a wrong name: one line, exit status 1.
@@ -78,7 +68,7 @@ refuses() {
     local line
     line=$(vm_run "$probe hold $2 $3 60 1")
     [ $? -eq 1 ] && [[ $line =~ $4 ]] && [ "$(wc -l <<<"$line")" -eq 1 ]
-    check "$1: $line" $?
+    ok "$1: $line" $?
 }
 
 test_refusals() {
@@ -95,14 +85,14 @@ test_cable() {
     local status="/sys/class/drm/$1-Virtual-*/status"
     hold "$1" 3
     vm_run "echo off >\$(echo $status)" && said dark
-    check "$1: a pulled cable is noticed" $?
+    ok "$1: a pulled cable is noticed" $?
     refuses "nothing is connected" "$1:auto" "640 480" 'no projector at any connector'
     vm_run "echo on >\$(echo $status)" && said lit
-    check "$1: the display comes back" $?
+    ok "$1: the display comes back" $?
     see "$1" "$VM/seen.ppm"
     vm_run "$probe picture 640 480 3" >"$VM/drawn.ppm"
     cmp "$VM/drawn.ppm" "$VM/seen.ppm"
-    check "$1: with its picture" $?
+    ok "$1: with its picture" $?
     release
     vm_run "echo detect >\$(echo $status)"
 }
@@ -110,12 +100,11 @@ test_cable() {
 trap vm_stop EXIT
 vm_start build/vm-display -device bochs-display,id=bochs,romfile= || exit 1
 vm_run 'echo 0 >/sys/class/graphics/fbcon/cursor_blink; modprobe bochs; modprobe vkms; udevadm settle; ls /dev/dri/card0 /dev/dri/card1 /dev/dri/card2' >/dev/null
-check "there are three displays" $?
+ok "there are three displays" $?
 for card in card0 card1 card2; do
     test_picture $card
     test_frames $card
     test_cable $card
 done
 test_refusals
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+ok_end

@@ -41,20 +41,20 @@ int main(int argc, char **argv)
 {
     const int card = argc == 2 ? open(argv[1], O_RDWR | O_CLOEXEC) : -1;
     if (card < 0 || drmSetClientCap(card, DRM_CLIENT_CAP_UNIVERSAL_PLANES, 1) != 0) {
-        fputs("usage: scanout /dev/dri/cardN\n", stderr);
+        fputs("usage: probe_scanout /dev/dri/cardN\n", stderr);
         return 2;
     }
     drmModeFB2 *framebuffer = drmModeGetFB2(card, find_framebuffer(card));
     uint64_t offset;
     if (framebuffer == NULL || framebuffer->pixel_format != DRM_FORMAT_XRGB8888 || framebuffer->handles[0] == 0 ||
         drmModeMapDumbBuffer(card, framebuffer->handles[0], &offset) != 0) {
-        fputs("scanout: nothing to be seen: no framebuffer of XRGB8888, or not root\n", stderr);
+        fputs("probe_scanout: nothing to be seen: no framebuffer of XRGB8888, or not root\n", stderr);
         return 1;
     }
     const size_t bytes = (size_t)framebuffer->pitches[0] * framebuffer->height;
     const void *pixels = mmap(NULL, bytes, PROT_READ, MAP_SHARED, card, (off_t)offset);
     if (pixels == MAP_FAILED) {
-        perror("scanout");
+        perror("probe_scanout");
         return 1;
     }
     return write_ppm(framebuffer, pixels);
