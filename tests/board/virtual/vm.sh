@@ -16,6 +16,7 @@
 #   vm_has_event NAME                  whether qemu has told of it: WATCHDOG, SHUTDOWN ...
 #   vm_alive                           whether it runs
 #   vm_stop                            ends it as a lost power supply does
+# VM_ACCEL, when it is set, is how qemu emulates, in place of a thread for each CPU.
 # Each call is bounded in time. A board is ended after VM_SECONDS, whatever becomes of those who use it.
 VM=${VM-}
 VM_SECONDS=900
@@ -64,7 +65,7 @@ vm_qemu() {
             -device "virtio-9p-pci,fsdev=${folder%%=*},mount_tag=${folder%%=*}")
     done
     exec timeout -k 5 "$VM_SECONDS" qemu-system-aarch64 -M virt -cpu cortex-a72 -smp 2 -m 1024 \
-        -accel tcg,thread=multi -nodefaults -display none -no-reboot -serial "file:$VM/console" \
+        -accel "${VM_ACCEL-tcg,thread=multi}" -nodefaults -display none -no-reboot -serial "file:$VM/console" \
         -kernel build/board-kernel/vmlinuz -initrd build/board-kernel/initramfs.gz \
         -append 'console=ttyAMA0 panic=-1 quiet' \
         -chardev "pipe,id=jobs,path=$VM/jobs" -device virtio-serial-pci -device virtserialport,chardev=jobs \

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of the virtual board's tests: a camera's raw bytes as a PNG for the simulator, and a screenshot compared
+// with the simulator's PNG.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "firmware/can_protocol.h"
+#include "firmware/quaternion.h"
+#include "sim/files/png_file.h"
+#include "sim/pose/motion.h"
+#include "sim/pose/pose_text.h"
+
+static const char USAGE[] =
+    "usage: picture_tool png WIDTH HEIGHT RAW PNG   raw XRGB8888 as a PNG\n"
+    "       picture_tool differ PPM PNG            says how many bytes of RGB differ; 0 if none\n"
+    "       picture_tool pose POSE                 as `send still` and classic frames carry it\n";
+
+enum { BYTES = IMAGE_XRGB8888 };
+
+static int fail(const char *error)
+{
+    fprintf(stderr, "picture_tool: %s\n", error);
+    return 2;
+}
+
+static int write_png(int32_t width, int32_t height, const char *raw, const char *png)
+{
+    char error[FILE_ERROR_LENGTH];
+    int64_t size;
+    FILE *file = file_open(raw, &size, error);
+    if (file == NULL)
+        return fail(error);
+    const size_t bytes = (size_t)size;
+    uint8_t *pixels = malloc(bytes);
+    const image_t image = {pixels, width, height, width * BYTES, IMAGE_XRGB8888};
+    const bool right =
+        pixels != NULL && size == (int64_t)width * height * BYTES && fread(pixels, 1, bytes, file) == bytes;
+    (void)fclose(file);
+    const bool written = right && png_file_write(png, &image, error);
+    free(pixels);
+    if (!right)
+        return fail("the raw file has another size");
+    return written ? 0 : fail(error);
+}
+
+/* Bytes of R, G and B that are not the same in both; all of them when the screenshot ends early. */
+static int64_t count_differences(FILE *ppm, const image_t *image)
+{
+    int64_t differences = 0;
+    for (int64_t i = 0; i < (int64_t)image->width * image->height; i++)
+        for (int channel = 2; channel >= 0; channel--)
+            differences += fgetc(ppm) != image->data[i * BYTES + channel];
+    return differences;
+}
+
+static int differ(const char *ppm, const char *png)
+{
+    char error[FILE_ERROR_LENGTH];
+    image_t image;
+    int64_t size;
+    FILE *file = file_open(ppm, &size, error);
+    if (file == NULL || !png_file_load(png, IMAGE_XRGB8888, &image, error))
+        return fail(error);
+    int32_t width, height;
+    const bool same_size = fscanf(file, "P6 %d %d 255", &width, &height) == 2 && fgetc(file) == '\n' &&
+                           width == image.width && height == image.height;
+    const int64_t differences = same_size ? count_differences(file, &image) : -1;
+    free(image.data);
+    (void)fclose(file);
+    if (!same_size)
+        return fail("the pictures have different sizes");
+    printf("%lld bytes differ\n", (long long)differences);
+    return differences == 0 ? 0 : 1;
+}
+
+static int carry_pose(const char *text)
+{
+    char error[POSE_TEXT_MESSAGE_LENGTH];
+    motion_t still = {.kind = MOTION_STILL, .rate_hz = 1.0, .duration_s = 1.0};
+    pose_list_t list;
+    hal_can_frame_t part[CAN_POSE_PARTS];
+    can_pose_t got;
+    int32_t unit[4];
+    if (!pose_from_text(text, &still.start, error))
+        return fail(error);
+    if (!motion_make(&list, &still))
+        return fail("out of memory");
+    const can_pose_t sent = {.pose = list.entry[0].pose, .quality = CAN_POSE_TRACKED};
+    pose_list_free(&list);
+    if (!can_pose_set_encode(part, &sent) || can_pose_set_decode(&got, part, 0) != CAN_CHECK_OK ||
+        !quaternion_normalise(unit, got.pose.quaternion_q30))
+        return fail("the pose does not fit classic frames");
+    for (int i = 0; i < 3; i++)
+        printf("%.6f ", (double)got.pose.eye_nm[i] / 1e6);
+    for (int i = 0; i < 4; i++)
+        printf("%.12f%s", unit[i] / 1073741824.0, i < 3 ? " " : "\n");
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 6 && strcmp(argv[1], "png") == 0)
+        return write_png(atoi(argv[2]), atoi(argv[3]), argv[4], argv[5]);
+    if (argc == 4 && strcmp(argv[1], "differ") == 0)
+        return differ(argv[2], argv[3]);
+    if (argc == 3 && strcmp(argv[1], "pose") == 0)
+        return carry_pose(argv[2]);
+    fputs(USAGE, stderr);
+    return 2;
+}
