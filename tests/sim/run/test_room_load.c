@@ -24,7 +24,7 @@ static const struct {
     {"FrameClock", 0x141, 0x17F, 30, true, true},  {"Status", 0x401, 0x43F, 80, true, true},
     {"Stage", 0x441, 0x47F, 32, true, true},       {"Quality", 0x481, 0x4BF, 8, true, true},
     {"Time", 0x4C1, 0x4FF, 8, true, true},         {"Step", 0x501, 0x53F, 80, true, true},
-    {"Latency", 0x541, 0x57F, 8, true, true},      {"Counts", 0x581, 0x5BF, 8, true, true},
+    {"Latency", 0x541, 0x57F, 8, true, true},      {"Counts", 0x5C1, 0x5FF, 8, true, true},
     {"Heartbeat", 0x701, 0x73F, 16, true, true},
 };
 
