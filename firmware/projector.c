@@ -71,22 +71,6 @@ void projector_use_key(projector_t *projector, can_auth_t *key, uint64_t seed)
     bus_auth_init(&projector->auth, key, projector->poses.viewer, seed);
 }
 
-void projector_begin_ladder(projector_t *projector)
-{
-    ladder_t *ladder = &projector->ladder;
-    for (int32_t step = 1; step < ladder->steps; step++)
-        if (!warp_has_method(&projector->warp, *ladder->method[step]))
-            ladder->steps = step;
-    degrade_init(&projector->degrade, projector->keeps_method ? 1 : ladder->steps);
-    warp_use_method(&projector->warp, *ladder->method[0]);
-}
-
-void projector_keep_method(projector_t *projector)
-{
-    projector->keeps_method = true;
-    degrade_init(&projector->degrade, 1);
-}
-
 /* Keep the camera's newest picture; while it has none, the last good one stays. */
 static void take_newest_picture(projector_t *p, int64_t now_us, int64_t blank_us)
 {
@@ -230,34 +214,6 @@ static void note_agreement(projector_t *p)
         telemetry_add_photon(&p->telemetry, p->report.pose_to_photon_us);
 }
 
-/* The method of the next picture: the board's own, or one that this board has the time for. */
-static void choose_method(projector_t *p, int64_t time_us)
-{
-    const int64_t *us = p->report.times.us;
-    const int32_t panel_pixels = p->wall.panel_width * p->wall.panel_height;
-    if (!p->report.corrected || !p->report.times.shown ||
-        p->report.warp.lit_pixels < panel_pixels / PROJECTOR_JUDGED_LIT)
-        return;
-    if (ladder_needs_step(&p->ladder))
-        warp_report_step(&p->warp, &p->report.warp);
-    const ladder_frame_t work = {
-        .lit_pixels = p->report.warp.lit_pixels,
-        .picture_pixels = p->camera.width * p->camera.height,
-        .k_q16 = p->warp.step_all ? p->report.warp.k_all_q16 : p->report.warp.k_in_q16,
-    };
-    degrade_frame_t frame = {
-        .busy_us = us[STAGE_POSE] + us[STAGE_WARP] + us[STAGE_SHOW],
-        .warp_us = us[STAGE_WARP],
-        .time_us = time_us,
-        .late = p->report.times.late,
-    };
-    for (int32_t step = 0; step < p->degrade.steps; step++)
-        frame.cost[step] = ladder_cost(p->ladder.method[step], &work);
-    const int32_t before = p->degrade.step;
-    if (degrade_next(&p->degrade, &frame) != before)
-        warp_use_method(&p->warp, *p->ladder.method[p->degrade.step]);
-}
-
 static void drive(projector_t *p, hal_gpio_line_t line, bool high)
 {
     if (hal_gpio_set(p->board.gpio, line, high) != HAL_OK)
@@ -297,7 +253,7 @@ void projector_step(projector_t *p)
     const bool healthy = p->report.state == CAN_BOARD_FROZEN ? keep(p, posed_us) : show(p, posed_us, deadline_us);
     note_agreement(p);
     stage_times_add(&p->stage_times, &p->report.times);
-    choose_method(p, deadline_us - now_us); /* what this one took -> the next picture's method */
+    projector_choose_method(p, deadline_us - now_us); /* what this one took -> the next picture's method */
     drive(p, HAL_GPIO_STROBE, false);
     drive(p, HAL_GPIO_LED, state_led_level(p->report.state, now_us));
     drive(p, HAL_GPIO_LAMP, p->report.frame_number > 0); /* light only what is meant to be seen */

@@ -113,6 +113,9 @@ void projector_keep_method(projector_t *projector);
  *  those that follow it, up to the first that the warp is not ready for. */
 void projector_begin_ladder(projector_t *projector);
 
+/** Choose the next picture's method by what this one took. @param time_us  There was for it. */
+void projector_choose_method(projector_t *projector, int64_t time_us);
+
 /**
  * Everything that is done once per refresh: bus and its time, camera, warp, display, telemetry, watchdog. Call it after
  * each vertical blank. Never blocks, never allocates; ends with a picture presented whatever has failed, unless it is
