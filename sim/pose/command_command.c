@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `wallwarp-pose command`: tell boards something, or ask them.
 #include <argp.h>
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,14 +8,14 @@
 #include "firmware/auth_key.h"
 #include "firmware/byte_order.h"
 #include "firmware/can_protocol.h"
+#include "sim/pose/board_answer.h"
 #include "sim/pose/board_talk.h"
 #include "sim/pose/command_options.h"
 #include "sim/pose/commands.h"
-#include "sim/pose/event_text.h"
 #include "sim/pose/request_text.h"
 #include "sim/program.h"
 
-enum { KEY_ALL = 256, KEY_KEY, QUIET_US = 1000000, ROLL_CALL_US = 500000, NUMBER_BYTES = 4, HELLO_BYTES = 5 };
+enum { KEY_ALL = 256, KEY_KEY, QUIET_US = 1000000, ROLL_CALL_US = 500000 };
 
 typedef struct {
     const char *bus, *name, *value, *key;
@@ -86,53 +85,6 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     }
 }
 
-static bool say(const session_t *session, int node, const char *what)
-{
-    fprintf(stderr, "%s: board %d %s\n", session->program, node, what);
-    return false;
-}
-
-/* A latency that the room cannot have. */
-static bool say_latency(const session_t *session, const board_talk_t *talk)
-{
-    char text[128];
-    const double least_ms = get_u32(talk->answer) / 1e3, most_ms = get_u32(talk->answer + NUMBER_BYTES) / 1e3;
-    snprintf(text, sizeof text, "cannot: its room's slowest board takes %.1f ms, the fastest can wait until %.1f",
-             least_ms, most_ms);
-    return say(session, talk->node, text);
-}
-
-static bool say_silent(const session_t *session, const board_talk_t *talk)
-{
-    return say(session, talk->node,
-               talk->answering ? "replies, but no reply comes whole: frames are lost; see `wallwarp-pose check`"
-               : talk->alive   ? "sends its heartbeat, but does not reply; is another asking it, or its firmware older?"
-                               : "is silent, without a heartbeat; power, cable, bit rate? Its node number? "
-                                 "`wallwarp-pose monitor` shows who is there");
-}
-
-/* @return Has the board done it? Else that is said. */
-static bool is_done(const session_t *session, const board_talk_t *talk)
-{
-    if (!talk->replied)
-        return say_silent(session, talk);
-    if (talk->keyless)
-        return say(session, talk->node, "has no key; leave --key out");
-    if (talk->tries > 1)
-        fprintf(stderr, "%s: board %d had to be asked %d times; are frames lost? See `wallwarp-pose check`\n",
-                session->program, talk->node, talk->tries);
-    if (talk->result == COMMAND_IMPOSSIBLE && talk->request.kind == COMMAND_LATENCY && talk->length >= 2 * NUMBER_BYTES)
-        return say_latency(session, talk);
-    if (talk->result != COMMAND_OK)
-        return say(session, talk->node, request_refusal(talk->request.kind, talk->result));
-    const bool short_hello = talk->request.kind == COMMAND_HELLO && talk->length < HELLO_BYTES;
-    const bool short_number =
-        (talk->request.kind == COMMAND_LATENCY || talk->request.kind == COMMAND_LOG) && talk->length < NUMBER_BYTES;
-    if (short_hello || short_number)
-        return say(session, talk->node, "replies with less than it should; is its firmware of this version?");
-    return true;
-}
-
 /* @return false when the bus has failed; said. */
 static bool ask(session_t *session, int64_t quiet_us)
 {
@@ -159,51 +111,12 @@ static bool call_the_roll(session_t *session)
         if (talk->replied)
             session->talk[session->boards++] = *talk;
         else if (talk->alive || talk->answering)
-            session->some_missing = !say_silent(session, talk);
+            session->some_missing = !board_answer_silent(session->program, talk);
     }
     if (session->boards == 0 && !session->some_missing)
         fprintf(stderr, "%s: no board is there; power, cable, bit rate? Two nodes or more must be on a bus\n",
                 session->program);
     return session->boards > 0;
-}
-
-static void print_answer(const board_talk_t *talk)
-{
-    const uint8_t *answer = talk->answer;
-    switch (talk->request.kind) {
-    case COMMAND_HELLO:
-        printf("board %d: %.*s, %" PRIu32 " events\n", talk->node, talk->length - HELLO_BYTES,
-               (const char *)answer + HELLO_BYTES, get_u32(answer + 1));
-        break;
-    case COMMAND_LATENCY:
-        printf("board %d: pose to photon will be %.1f ms\n", talk->node, get_u32(answer) / 1e3);
-        break;
-    case COMMAND_REBOOT:
-        printf("board %d: starts anew when its watchdog ends, in about 2 s\n", talk->node);
-        break;
-    case COMMAND_METHOD:
-    case COMMAND_FREEZE:
-    case COMMAND_PATTERN:
-    case COMMAND_LOG:
-    case COMMAND_NONCE:
-    case COMMAND_SESSION:
-        printf("board %d: done\n", talk->node);
-        break;
-    }
-}
-
-/* @return Events of one reply of a log. */
-static int print_events(const board_talk_t *talk)
-{
-    const int events = (talk->length - NUMBER_BYTES) / EVENT_BYTES;
-    for (int i = 0; i < events; i++) {
-        char text[EVENT_TEXT_LENGTH];
-        event_t event;
-        (void)event_unpack(&event, talk->answer + NUMBER_BYTES + EVENT_BYTES * i);
-        event_text(text, &event);
-        printf("board %d: %s\n", talk->node, text);
-    }
-    return events;
 }
 
 /* One board's log, from an event on. */
@@ -213,9 +126,9 @@ static bool read_log(session_t *session, int node, uint32_t first)
     while (events == COMMAND_MOST_EVENTS) {
         session->boards = 1;
         session->talk[0] = (board_talk_t){.node = (uint8_t)node, .request = {COMMAND_LOG, .first_event = first}};
-        if (!ask(session, QUIET_US) || !is_done(session, session->talk))
+        if (!ask(session, QUIET_US) || !board_answer_done(session->program, session->talk))
             return false;
-        events = print_events(session->talk);
+        events = board_answer_print_events(session->talk);
         first = get_u32(session->talk[0].answer) + (uint32_t)events;
     }
     return true;
@@ -230,7 +143,7 @@ static bool read_logs(session_t *session, bool whole)
     bool done = true;
     for (int i = 0; i < boards; i++) {
         const board_talk_t *talk = &session->talk[i];
-        if (!is_done(session, talk))
+        if (!board_answer_done(session->program, talk))
             return false;
         const uint32_t events = get_u32(talk->answer + 1);
         node[i] = talk->node;
@@ -260,8 +173,8 @@ static bool tell(session_t *session, const options_t *options)
     if (log)
         return read_logs(session, options->whole_log) && done;
     for (int i = 0; i < session->boards; i++) {
-        if (is_done(session, &session->talk[i]))
-            print_answer(&session->talk[i]);
+        if (board_answer_done(session->program, &session->talk[i]))
+            board_answer_print(&session->talk[i]);
         else
             done = false;
     }
