@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Decodes what the firmware's encoders make by means of wallwarp.dbc, with canmatrix, and compares every signal.
 
-usage: dbc_decodes_traffic.py PRINT_FRAMES [DBC]
+usage: dbc_decodes_traffic.py PROGRAM...    programs that print frames: see print_frame.h
 """
 import decimal
 import subprocess
@@ -45,7 +45,7 @@ def expected_crc(profile, data_id, data):
 
 
 def read_frames(program):
-    """[(message, identifier, fd, cycle in ms, data, {signal: value}, {signal: name of the value})]: print_frames'."""
+    """[(message, identifier, fd, cycle in ms, data, {signal: value}, {signal: name of the value})]: a program's."""
     frames = []
     for line in subprocess.run([program], check=True, capture_output=True, text=True).stdout.splitlines():
         kind, *words = line.split()
@@ -95,12 +95,11 @@ def check_frame(tally, message, frame):
 
 
 def main():
-    if len(sys.argv) not in (2, 3):
+    if len(sys.argv) < 2:
         print(__doc__.strip(), file=sys.stderr)
         return 2
-    path = sys.argv[2] if len(sys.argv) == 3 else "firmware/wallwarp.dbc"
-    matrix = canmatrix.formats.loadp_flat(path)
-    frames = read_frames(sys.argv[1])
+    matrix = canmatrix.formats.loadp_flat("firmware/wallwarp.dbc")
+    frames = [frame for program in sys.argv[1:] for frame in read_frames(program)]
     tally = Tally()
     tally.check("messages", sorted({frame[0] for frame in frames}), sorted(message.name for message in matrix.frames))
     for message in matrix.frames:

@@ -1,47 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints encoded frames beside the values that went into them, for dbc_decodes_traffic.py to compare.
-//
-// Lines: "frame MESSAGE ID FD CYCLE_MS HEX", then "signal NAME VALUE" for what that frame must say, and "named NAME
-// TEXT" for what the DBC file calls that value. The values are in the DBC file's units, written down by hand here.
-#include <stdio.h>
-#include <stdlib.h>
-
-#include "firmware/can_counts.h"
+// Prints frames of poses, of bus time and of the numbers of refreshes, as print_frame.h says.
 #include "firmware/can_frame_clock.h"
-#include "firmware/can_latency.h"
 #include "firmware/can_protocol.h"
-#include "tests/support/auth_frames.h"
-#include "tests/support/auth_frames.h"
+#include "tests/firmware/print_frame.h"
 
 enum { POSE_CYCLE_MS = 4 };
-
-static void print_frame(const char *message, const hal_can_frame_t *frame, int cycle_ms)
-{
-    printf("frame %s %u %d %d ", message, (unsigned)frame->id, frame->fd ? 1 : 0, cycle_ms);
-    for (int i = 0; i < frame->length; i++)
-        printf("%02x", frame->data[i]);
-    printf("\n");
-}
-
-static void check(bool encoded)
-{
-    if (!encoded) {
-        fprintf(stderr, "print_frames: a frame was not encoded\n");
-        exit(1);
-    }
-}
-
-static can_auth_t *key;
-
-/* The frame behind a message, with the key of auth_frames.h. Codes are from `openssl mac -cipher AES-128-CBC -macopt
- * hexkey:000102030405060708090A0B0C0D0E0F CMAC`. */
-static void print_code(const char *message, const can_auth_message_t *frames, int cycle_ms, const char *mac)
-{
-    hal_can_frame_t tag;
-    check(can_auth_sign(key, AUTH_FRESH, frames, &tag));
-    print_frame(message, &tag, cycle_ms);
-    printf("signal %sTime 13952502\nsignal %sMac %s\n", message, message, mac); /* 0xD4E5F6 */
-}
 
 static void print_signed_fd(hal_can_frame_t frame)
 {
@@ -99,65 +62,6 @@ static void print_set(void)
     print_code("PoseSetCode", &set, POSE_CYCLE_MS, "699254507930");
 }
 
-static void print_status(void)
-{
-    hal_can_frame_t frame;
-    const can_status_t status = {.node = 1,
-                                 .counter = 5,
-                                 .pose_counter = 201,
-                                 .pose_age_ms = 777,
-                                 .step_q8 = 640,
-                                 .warp_time_us = 8300,
-                                 .can_faults = 1000};
-    check(can_status_encode(&frame, &status));
-    print_frame("Status", &frame, CAN_STATUS_PERIOD_MS);
-    printf("signal StatusCounter 5\nsignal StatusWarpTime 8300\nsignal StatusPoseAge 777\nsignal StatusStep 2.5\n"
-           "signal StatusCanFaults 1000\nsignal StatusPoseCounter 201\n");
-}
-
-static void print_stages(void)
-{
-    static const char *const NAME[STAGES] = {"Pose", "Warp", "Show", "Wait"};
-    for (int i = 0; i < STAGES; i++) {
-        hal_can_frame_t frame;
-        const can_stage_t stage = {.node = 1,
-                                   .counter = (uint8_t)(3 + i),
-                                   .stage = (stage_t)i,
-                                   .mean_us = 8301,
-                                   .worst_us = 54321,
-                                   .shown = 60,
-                                   .late = 201};
-        check(can_stage_encode(&frame, &stage));
-        print_frame("Stage", &frame, CAN_STAGE_PERIOD_MS);
-        printf("signal StageCounter %d\nsignal StageNumber %d\nsignal StageMean 8301\nsignal StageWorst 54321\n"
-               "signal StageShown 60\nsignal StageLate 201\nnamed StageNumber %s\n",
-               3 + i, i, NAME[i]);
-    }
-}
-
-/* One for each method, so that no two can be confused. */
-static void print_qualities(void)
-{
-    for (int i = 0; i < WARP_METHODS; i++) {
-        hal_can_frame_t frame;
-        const can_quality_t quality = {.node = 1,
-                                       .counter = (uint8_t)(i % 15),
-                                       .step = (uint8_t)(i % DEGRADE_MAX_STEPS),
-                                       .filter = warp_methods[i].filter,
-                                       .resampler = warp_methods[i].resampler,
-                                       .changes = 51234,
-                                       .wanted_us = 23456,
-                                       .hold_s = 512};
-        check(can_quality_encode(&frame, &quality));
-        print_frame("Quality", &frame, CAN_QUALITY_PERIOD_MS);
-        printf("signal QualityCounter %d\nsignal QualityStep %d\nsignal QualityMethod %d\n"
-               "signal QualityChanges 51234\nsignal QualityWanted 23456\nsignal QualityHold 512\n"
-               "named QualityMethod %s\n",
-               i % 15, i % DEGRADE_MAX_STEPS, 16 * (int)warp_methods[i].filter + (int)warp_methods[i].resampler,
-               warp_methods[i].name);
-    }
-}
-
 static void print_sync(void)
 {
     hal_can_frame_t pair[2];
@@ -171,29 +75,6 @@ static void print_sync(void)
     printf("signal FollowUpCounter 9\nsignal FollowUpReserved 0\nsignal FollowUpTime 273849506172839\n");
     const can_auth_message_t message = {pair, 2, CAN_AUTH_ID_TIME};
     print_code("TimeCode", &message, CAN_SYNC_PERIOD_MS, "302467567129");
-}
-
-static void print_times(void)
-{
-    static const char *const NAME[] = {"None", "OwnMaster", "Locked", "Holdover"};
-    for (int i = 0; i <= CAN_TIME_HOLDOVER; i++) {
-        hal_can_frame_t frame;
-        const can_time_t time = {.node = 1,
-                                 .counter = (uint8_t)(11 + i),
-                                 .state = (can_time_state_t)i,
-                                 .master = (uint8_t)(40 + i),
-                                 .drift_ppb = i % 2 == 0 ? 51300 : -700,
-                                 .error_us = 777,
-                                 .changes = 55,
-                                 .relocks = 13,
-                                 .lost = 201};
-        check(can_time_encode(&frame, &time));
-        print_frame("Time", &frame, CAN_TIME_PERIOD_MS);
-        printf("signal TimeCounter %d\nsignal TimeState %d\nsignal TimeMaster %d\nsignal TimeDrift %s\n"
-               "signal TimeError 777\nsignal TimeChanges 55\nsignal TimeRelocks 13\nsignal TimeLost 201\n"
-               "named TimeState %s\n",
-               11 + i, i, 40 + i, i % 2 == 0 ? "51.3" : "-0.7", NAME[i]);
-    }
 }
 
 static void print_frame_clock(void)
@@ -227,97 +108,14 @@ static void print_frame_clock(void)
            "signal StepRefresh 12345\nsignal StepPicture 54321\nsignal StepPose 1234500\n");
 }
 
-static void print_latencies(void)
-{
-    static const char *const NAME[] = {"InStep",    "NoBusTime", "NoFrameClock", "PanelOff",
-                                       "NoPicture", "NoPose",    "NotShown"};
-    for (int i = 0; i <= CAN_STEP_NOT_SHOWN; i++) {
-        hal_can_frame_t frame;
-        const can_latency_t latency = {.node = 1,
-                                       .counter = (uint8_t)(2 + i),
-                                       .fault = (can_step_fault_t)i,
-                                       .held = (uint8_t)i,
-                                       .genlocked = i % 2 == 0,
-                                       .lag_us = 16705, /* rounded up */
-                                       .display_us = 33500,
-                                       .wanted_ms = 123,
-                                       .photon_us = 61300, /* rounded */
-                                       .off_us = i % 2 == 0 ? 1290 : -7940};
-        check(can_latency_encode(&frame, &latency));
-        print_frame("Latency", &frame, CAN_LATENCY_PERIOD_MS);
-        printf("signal LatencyCounter %d\nsignal LatencyFault %d\nsignal LatencyHeld %d\nsignal LatencyGenlocked %d\n"
-               "signal LatencyLag 16768\nsignal LatencyDisplay 33.5\nsignal LatencyWanted 123\n"
-               "signal LatencyPhoton 61.25\nsignal LatencyOff %d\nnamed LatencyFault %s\n",
-               2 + i, i, i, i % 2 == 0, i % 2 == 0 ? 1280 : -7936, NAME[i]);
-        const can_auth_message_t message = {&frame, 1, CAN_AUTH_ID_LATENCY + 1};
-        if (i == 0)
-            print_code("LatencyCode", &message, CAN_LATENCY_PERIOD_MS, "500234171403");
-    }
-}
-
-static void print_counts(void)
-{
-    hal_can_frame_t frame;
-    const can_counts_t counts = {.node = 1,
-                                 .counter = 12,
-                                 .tags_lost = 4096 + 3000,
-                                 .guessed = 2345,
-                                 .leaders = 201,
-                                 .epochs_missed = 256 + 99,
-                                 .command_faults = 4000};
-    check(can_counts_encode(&frame, &counts));
-    print_frame("Counts", &frame, CAN_COUNTS_PERIOD_MS);
-    printf("signal CountsCounter 12\nsignal CountsTagsLost 3000\nsignal CountsGuessed 2345\nsignal CountsLeaders 201\n"
-           "signal CountsEpochsMissed 99\nsignal CountsCommandFaults 4000\n");
-}
-
-/* One heartbeat for each fault flag, so that no two flags can be confused. */
-static void print_heartbeats(void)
-{
-    static const struct {
-        can_fault_flag_t flag;
-        const char *signal;
-    } FAULT[] = {
-        {CAN_FAULT_BUS, "HeartbeatFaultBus"},           {CAN_FAULT_BUS_OFF, "HeartbeatFaultBusOff"},
-        {CAN_FAULT_CAMERA, "HeartbeatFaultCamera"},     {CAN_FAULT_DISPLAY, "HeartbeatFaultDisplay"},
-        {CAN_FAULT_GPIO, "HeartbeatFaultGpio"},         {CAN_FAULT_WATCHDOG, "HeartbeatFaultWatchdog"},
-        {CAN_FAULT_DEADLINE, "HeartbeatFaultDeadline"}, {CAN_FAULT_REFUSED, "HeartbeatFaultRefused"},
-        {CAN_FAULT_SESSION, "HeartbeatFaultSession"},
-    };
-    enum { FAULTS = sizeof FAULT / sizeof FAULT[0] };
-    for (int i = 0; i < FAULTS; i++) {
-        hal_can_frame_t frame;
-        const can_heartbeat_t heartbeat = {.node = 1,
-                                           .counter = (uint8_t)(6 + i),
-                                           .state = (can_board_state_t)(i % CAN_BOARD_STATES),
-                                           .fault_flags = FAULT[i].flag,
-                                           .frame_number = 43210,
-                                           .uptime_s = 54321};
-        check(can_heartbeat_encode(&frame, &heartbeat));
-        print_frame("Heartbeat", &frame, CAN_HEARTBEAT_PERIOD_MS);
-        printf("signal HeartbeatCounter %d\nsignal HeartbeatState %d\nsignal HeartbeatFrameNumber 43210\n"
-               "signal HeartbeatUptime 54321\nsignal HeartbeatFaultReserved 0\n",
-               6 + i, i % CAN_BOARD_STATES);
-        for (int k = 0; k < FAULTS; k++)
-            printf("signal %s %d\n", FAULT[k].signal, k == i ? 1 : 0);
-    }
-}
-
 int main(void)
 {
     key = can_auth_open(&AUTH_KEY);
     check(key != NULL);
     print_fd();
     print_set();
-    print_status();
-    print_stages();
-    print_qualities();
     print_sync();
-    print_times();
     print_frame_clock();
-    print_latencies();
-    print_counts();
-    print_heartbeats();
     can_auth_close(key);
     return 0;
 }
