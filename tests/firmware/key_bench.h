@@ -138,6 +138,43 @@ static inline void assert_refused(uint32_t refused)
         assert_int_equal(can_faults_refused(key_faults(b)), refused);
 }
 
+/* Nobody has believed it: the eye did not go there. */
+static inline void assert_nobody_far(void)
+{
+    for (int b = 0; b < ROOM_BENCH_BOARDS; b++)
+        assert_true(key_board(b)->poses.newest.pose.eye_nm[2] == 0);
+}
+
+/* All that the stranger has heard, again, but what is no use to him. */
+static inline void key_repeat_all(void)
+{
+    hal_can_frame_t heard[KEY_HEARD];
+    const int frames = k.frames;
+    memcpy(heard, k.heard, sizeof heard);
+    for (int i = 0; i < frames; i++)
+        if (heard[i].id < CAN_ID_STATUS || heard[i].id - CAN_ID_COMMAND < 64) {
+            key_inject(&heard[i], 1);
+            if (i % 4 == 3)
+                key_step();
+        }
+}
+
+/* Frames of one pose, signed as the tracker would, but made at another time. */
+static inline int key_sign_pose(hal_can_frame_t frame[POSE_AUTH_FRAMES], can_auth_t *key, uint64_t session,
+                                int64_t bus_us)
+{
+    pose_auth_t signer;
+    const pose_t far = {.eye_nm = {0, 0, -900000000}, .quaternion_q30 = {1 << 30, 0, 0, 0}};
+    const can_pose_t pose = {.pose = far,
+                             .capture_time_us = (uint64_t)bus_us % CAN_POSE_SET_WRAP_US,
+                             .quality = CAN_POSE_TRACKED,
+                             .counter = (uint8_t)((k.tracker.counter + 1) % CAN_E2E_P01_COUNTERS)};
+    const bool fd = k.room.room.fd;
+    assert_true(fd ? can_pose_fd_encode(frame, &pose) : can_pose_set_encode(frame, &pose));
+    pose_auth_init(&signer, key, session, 0);
+    return pose_auth_sign_pose(&signer, frame, fd ? 1 : CAN_POSE_PARTS, 0, (uint64_t)bus_us);
+}
+
 /* The tracker of session 1 is believed, and nothing was refused. */
 static inline void key_start_running(void)
 {

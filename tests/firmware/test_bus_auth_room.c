@@ -1,37 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A room with a key, in virtual time: who is believed, and what strangers, restarts and other masters change.
+// A room with a key, in virtual time: who is believed, and that strangers change nothing.
 #include "firmware/can_latency.h"
 #include "tests/firmware/key_bench.h"
-
-enum { MOST_FRAMES = 4, TRACKER_SYNC = 0x040, BOARD_5 = 5 };
-
-/* Frames of one pose, signed as the tracker would, but made at another time. */
-static int sign_pose(hal_can_frame_t frame[POSE_AUTH_FRAMES], can_auth_t *key, uint64_t session, int64_t bus_us)
-{
-    pose_auth_t signer;
-    const pose_t far = {.eye_nm = {0, 0, -900000000}, .quaternion_q30 = {1 << 30, 0, 0, 0}};
-    const can_pose_t pose = {.pose = far,
-                             .capture_time_us = (uint64_t)bus_us % CAN_POSE_SET_WRAP_US,
-                             .quality = CAN_POSE_TRACKED,
-                             .counter = (uint8_t)((k.tracker.counter + 1) % CAN_E2E_P01_COUNTERS)};
-    const bool fd = k.room.room.fd;
-    assert_true(fd ? can_pose_fd_encode(frame, &pose) : can_pose_set_encode(frame, &pose));
-    pose_auth_init(&signer, key, session, 0);
-    return pose_auth_sign_pose(&signer, frame, fd ? 1 : CAN_POSE_PARTS, 0, (uint64_t)bus_us);
-}
-
-static void restart(int board)
-{
-    char error[FILE_ERROR_LENGTH];
-    assert_true(sim_world_restart(k.room.world, board, error));
-}
-
-/* Nobody has believed it: the eye did not go there. */
-static void assert_not_far(void)
-{
-    for (int b = 0; b < ROOM_BENCH_BOARDS; b++)
-        assert_true(key_board(b)->poses.newest.pose.eye_nm[2] == 0);
-}
 
 static void test_who_has_the_key_is_believed(void **state)
 {
@@ -81,17 +51,17 @@ static void test_poses_of_strangers_change_nothing(void **state)
     key_start_running();
     k.sending = false;
     key_step();
-    const int frames = sign_pose(frame, k.other, 1, room_bench_now_us(&k.room));
+    const int frames = key_sign_pose(frame, k.other, 1, room_bench_now_us(&k.room));
     key_inject(frame, frames);
     key_run(50);
-    assert_not_far();
+    assert_nobody_far();
     assert_int_equal(key_faults(0)->auth_forged, 1);
-    (void)sign_pose(frame, k.key, 2, room_bench_now_us(&k.room)); /* of another session */
+    (void)key_sign_pose(frame, k.key, 2, room_bench_now_us(&k.room)); /* of another session */
     key_inject(frame, frames);
     key_run(50);
-    assert_not_far();
+    assert_nobody_far();
     assert_int_equal(key_faults(1)->auth_forged, 2);
-    (void)sign_pose(frame, k.key, 1, room_bench_now_us(&k.room));
+    (void)key_sign_pose(frame, k.key, 1, room_bench_now_us(&k.room));
     const bool fd = k.room.room.fd;
     frame[0].id -= fd ? CAN_AUTH_ID_POSE_FD - CAN_ID_POSE_FD : 0; /* without a code */
     frame[0].length = fd ? CAN_AUTH_FD_PLAIN : frame[0].length;
@@ -99,7 +69,7 @@ static void test_poses_of_strangers_change_nothing(void **state)
     key_step();
     key_inject(frame, fd ? 0 : 1); /* of the next set: the first one has no code and will have none */
     key_run(600);
-    assert_not_far();
+    assert_nobody_far();
     assert_int_equal(key_faults(0)->auth_unsigned, 1);
     assert_true((k.room.voice[0].flags_ever & CAN_FAULT_REFUSED) != 0);
 }
@@ -112,40 +82,26 @@ static void test_repeated_and_late_poses_change_nothing(void **state)
     k.sending = false;
     key_step();
     const int64_t now_us = room_bench_now_us(&k.room);
-    const int frames = sign_pose(frame, k.key, 1, now_us - 1000000); /* before what the boards have taken */
+    const int frames = key_sign_pose(frame, k.key, 1, now_us - 1000000); /* before what the boards have taken */
     key_inject(frame, frames);
     key_step();
     assert_int_equal(key_faults(0)->auth_replayed, 1);
-    (void)sign_pose(frame, k.key, 1, now_us + 2000000);
+    (void)key_sign_pose(frame, k.key, 1, now_us + 2000000);
     key_inject(frame, frames);
     key_step();
     assert_int_equal(key_faults(0)->auth_early, 1);
-    (void)sign_pose(frame, k.key, 1, now_us);
+    (void)key_sign_pose(frame, k.key, 1, now_us);
     key_run(200); /* it is held back */
     key_inject(frame, frames);
     key_step();
     assert_int_equal(key_faults(0)->auth_stale, 1);
-    assert_not_far();
+    assert_nobody_far();
     assert_refused(3);
-    (void)sign_pose(frame, k.key, 1, room_bench_now_us(&k.room)); /* in time */
+    (void)key_sign_pose(frame, k.key, 1, room_bench_now_us(&k.room)); /* in time */
     key_inject(frame, frames);
     key_run(50);
     assert_int_equal(key_board(0)->poses.newest.pose.eye_nm[2], -900000000);
     assert_refused(3);
-}
-
-/* All that the stranger has heard, again, but what is no use to him. */
-static void repeat_all(void)
-{
-    hal_can_frame_t heard[KEY_HEARD];
-    const int frames = k.frames;
-    memcpy(heard, k.heard, sizeof heard);
-    for (int i = 0; i < frames; i++)
-        if (heard[i].id < CAN_ID_STATUS || heard[i].id - CAN_ID_COMMAND < 64) {
-            key_inject(&heard[i], 1);
-            if (i % 4 == 3)
-                key_step();
-        }
 }
 
 static void test_a_whole_recording_changes_nothing(void **state)
@@ -158,97 +114,13 @@ static void test_a_whole_recording_changes_nothing(void **state)
     key_run(3000);
     assert_boards_are(CAN_BOARD_SAFE);
     const can_pose_t before = key_board(0)->poses.newest;
-    repeat_all();
+    key_repeat_all();
     key_run(200);
     assert_boards_are(CAN_BOARD_SAFE);
     assert_true(can_faults_refused(key_faults(0)) - key_faults(0)->auth_commands > 50);
     assert_true(key_faults(0)->auth_replayed > 10);
     assert_true(key_faults(0)->auth_commands > 0);
     assert_memory_equal(&before.pose, &key_board(0)->poses.newest.pose, sizeof before.pose);
-}
-
-static void test_a_board_that_starts_anew_is_told_again(void **state)
-{
-    (void)state;
-    key_listen();
-    key_start_running();
-    k.sending = false;
-    restart(0);
-    repeat_all(); /* to a board that knows neither session nor time */
-    assert_int_equal(key_board(0)->report.state, CAN_BOARD_WAITING);
-    assert_false(key_board(0)->auth.has_session);
-    assert_int_equal(can_faults_refused(key_faults(0)) - key_faults(0)->auth_commands, 0);
-    key_track(k.key, 77);
-    key_run(KEY_AGAIN_MS);
-    assert_boards_are(CAN_BOARD_RUNNING);
-    restart(1);
-    key_run(KEY_AGAIN_MS); /* the tracker goes on */
-    assert_boards_are(CAN_BOARD_RUNNING);
-    assert_int_equal(k.tracker.auth.teller.told, 3);
-    key_run(7000);
-    assert_true(key_board(1)->report.agreement.in_step);
-}
-
-static void test_a_tracker_that_starts_anew_is_believed_again(void **state)
-{
-    (void)state;
-    hal_can_frame_t old[POSE_AUTH_FRAMES];
-    key_start_running();
-    key_track(k.key, 2);
-    key_run(KEY_AGAIN_MS);
-    assert_boards_are(CAN_BOARD_RUNNING);
-    assert_int_equal(key_board(0)->auth.session, 2);
-    k.sending = false;
-    const uint32_t forged = key_faults(0)->auth_forged;
-    const int frames = sign_pose(old, k.key, 1, room_bench_now_us(&k.room));
-    key_inject(old, frames);
-    key_run(50);
-    assert_int_equal(key_faults(0)->auth_forged, forged + 1);
-    assert_not_far();
-}
-
-/* The first of two trackers with the key is heard again when the second has gone. */
-static void test_a_tracker_comes_back_when_another_has_gone(void **state)
-{
-    (void)state;
-    static pose_sender_t first;
-    key_start_running();
-    first = k.tracker;
-    key_track(k.key, 2);
-    for (int i = 0; i < 2 * ROOM_BENCH_HZ; i++)
-        key_step();
-    assert_int_equal(key_board(0)->auth.session, 2);
-    k.tracker = first;
-    key_run(4000);
-    assert_int_equal(key_board(0)->auth.session, 1);
-    assert_boards_are(CAN_BOARD_RUNNING);
-}
-
-static void test_boards_sign_when_the_tracker_has_gone(void **state)
-{
-    (void)state;
-    key_start_running();
-    key_run(5000);
-    k.sending = false;
-    key_run(3000);
-    const int64_t now_us = room_bench_now_us(&k.room);
-    assert_int_equal(bus_master_state(&key_board(0)->time, now_us), CAN_TIME_OWN);
-    assert_int_equal(bus_master_state(&key_board(1)->time, now_us), CAN_TIME_LOCKED);
-    assert_int_equal(key_board(1)->time.master, BOARD_5);
-    assert_int_equal(key_board(1)->choice.clock.leader, key_board(0)->choice.clock.leader);
-    assert_refused(0);
-    assert_true(bus_auth_wants_session(&key_board(0)->auth, now_us));
-    restart(0); /* it knows no session: it is silent, and the other one is master */
-    key_run(3000);
-    assert_int_equal(bus_master_state(&key_board(1)->time, room_bench_now_us(&k.room)), CAN_TIME_OWN);
-    assert_refused(0);
-    key_track(k.key, 3);
-    key_run(12000);
-    assert_boards_are(CAN_BOARD_RUNNING);
-    for (int b = 0; b < ROOM_BENCH_BOARDS; b++) {
-        assert_int_equal(key_board(b)->time.master, BUS_MASTER_TRACKER);
-        assert_true(key_board(b)->report.agreement.in_step);
-    }
 }
 
 /* A stranger's bus time and numbers of refreshes, with the best rank. */
@@ -296,10 +168,6 @@ int main(void)
         BOTH(test_poses_of_strangers_change_nothing),
         BOTH(test_repeated_and_late_poses_change_nothing),
         BOTH(test_a_whole_recording_changes_nothing),
-        BOTH(test_a_board_that_starts_anew_is_told_again),
-        BOTH(test_a_tracker_that_starts_anew_is_believed_again),
-        BOTH(test_a_tracker_comes_back_when_another_has_gone),
-        BOTH(test_boards_sign_when_the_tracker_has_gone),
         BOTH(test_time_of_strangers_changes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

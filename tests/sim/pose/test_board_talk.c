@@ -1,127 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests of talks with boards: a made-up board on a simulated bus replies well, badly, late or not at all.
-#include <pthread.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdatomic.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <string.h>
-#include <time.h>
+// Tests of talks with boards: a board replies well, badly, late or not at all.
+#include "tests/sim/pose/board_scene.h"
 
-#include <cmocka.h>
-
-#include "firmware/can_protocol.h"
-#include "sim/devices/sim_clock.h"
-#include "sim/pose/board_talk.h"
-#include "tests/support/auth_frames.h"
-#include "tests/support/socketcand_bench.h"
-
-enum { NODE = 7, OTHER_NODE = 8, QUIET_US = 400000, MOST_REPLIES = 4 };
-
-/* A thread with the bus, and a board that has its replies ready. */
-typedef struct {
-    socketcand_bench_t bench;
-    pthread_t thread;
-    atomic_bool stop;
-    isotp_t link;
-    struct {
-        const uint8_t *bytes;
-        int length;
-    } reply[MOST_REPLIES];
-    int replies;
-    uint8_t request[COMMAND_MAX_BYTES];
-    int request_length;
-    bool one_each;         /* one reply a request */
-    int lost_in, lost_out; /* number of the frame to the board, or from it, that is lost; 0: none */
-    bool heartbeat;        /* the board sends one after each turn */
-    int requests, newest;  /* how many came, and bytes of the newest */
-    int unsent;
-} scene_t;
-
-static scene_t scene;
-static const volatile sig_atomic_t never_stop;
-
-static void turn(void)
-{
-    const int64_t now_us = sim_clock_monotonic_us();
-    const uint8_t *request;
-    hal_can_frame_t frame;
-    socketcand_bench_turn(&scene.bench, 1);
-    while (hal_can_receive(scene.bench.board, &frame) == HAL_OK)
-        if (--scene.lost_in != 0)
-            (void)isotp_take(&scene.link, &frame, now_us);
-    const int length = isotp_received(&scene.link, &request);
-    if (length > 0 && length <= COMMAND_MAX_BYTES) {
-        memcpy(scene.request, request, (size_t)length);
-        scene.request_length = length;
-        scene.newest = length;
-        scene.requests++;
-    }
-    if (scene.request_length > 0 && scene.replies > 0 && !isotp_sending(&scene.link)) {
-        scene.replies--;
-        if (scene.reply[scene.replies].length > 0) /* else it is lost */
-            (void)isotp_send(&scene.link, scene.reply[scene.replies].bytes, scene.reply[scene.replies].length, now_us);
-        scene.request_length *= !scene.one_each;
-    }
-    isotp_taken(&scene.link);
-    while (isotp_next(&scene.link, &frame, now_us))
-        if (--scene.lost_out != 0 && hal_can_send(scene.bench.board, &frame) != HAL_OK)
-            scene.unsent++;
-    if (scene.heartbeat && can_heartbeat_encode(&frame, &(can_heartbeat_t){.node = NODE}))
-        scene.unsent += hal_can_send(scene.bench.board, &frame) != HAL_OK;
-}
-
-static void *play(void *context)
-{
-    const struct timespec nap = {.tv_nsec = 500000};
-    while (!scene.stop) {
-        turn();
-        nanosleep(&nap, NULL);
-    }
-    return context;
-}
-
-/* Replies are given in the reverse order. */
-static void add_reply(const void *bytes, int length)
-{
-    scene.reply[scene.replies].bytes = bytes;
-    scene.reply[scene.replies].length = length;
-    scene.replies++;
-}
-
-static int open_scene(void **state)
-{
-    (void)state;
-    memset(&scene, 0, sizeof scene);
-    scene.bench = socketcand_bench_begin();
-    isotp_init(&scene.link, CAN_ID_COMMAND + NODE, CAN_ID_REPLY + NODE);
-    return 0;
-}
-
-static int close_scene(void **state)
-{
-    (void)state;
-    socketcand_bench_end(&scene.bench);
-    return 0;
-}
-
-/* @return What board_talk() says. */
-static bool talk_to(board_talk_t *talk, int count)
-{
-    char bus[32], error[POSE_LINK_MESSAGE_LENGTH] = "";
-    pose_link_t link;
-    snprintf(bus, sizeof bus, "127.0.0.1:%d", socketcand_server_port(scene.bench.server));
-    assert_int_equal(pthread_create(&scene.thread, NULL, play, NULL), 0);
-    assert_true(pose_link_open(&link, bus, false, error));
-    assert_true(pose_link_listen(&link, error));
-    const bool ok = board_talk(&link, talk, count, QUIET_US, &never_stop, error);
-    pose_link_close(&link);
-    scene.stop = true;
-    assert_int_equal(pthread_join(scene.thread, NULL), 0);
-    assert_int_equal(scene.unsent, 0);
-    return ok;
-}
+enum { OTHER_NODE = 8 };
 
 static void test_long_request_and_reply(void **state)
 {
@@ -152,70 +33,6 @@ static void test_reply_to_another_request_is_passed_over(void **state)
     assert_true(talk.replied);
     assert_int_equal(talk.result, COMMAND_BAD_VALUE);
     assert_int_equal(talk.length, 0);
-}
-
-static const char nonce_reply[] = "\x88\x00\x01\x02\x03\x04\x05\x06\x07\x08";
-static const uint64_t nonce = 0x0807060504030201;
-
-/* A talk with a key, about a freeze. Is the newest request one with the code for that number? */
-static board_talk_t talk_with_key(void)
-{
-    can_auth_t *auth = can_auth_open(&AUTH_KEY);
-    board_talk_t talk = {.node = NODE, .request = {.kind = COMMAND_FREEZE, .freeze = true}, .auth = auth};
-    assert_non_null(auth);
-    scene.one_each = true;
-    assert_true(talk_to(&talk, 1));
-    if (scene.newest == 2 + CAN_AUTH_COMMAND_BYTES) {
-        const can_auth_command_t plain = {CAN_ID_COMMAND + NODE, scene.request, 2, nonce};
-        assert_memory_equal(scene.request, "\x03\x01", 2);
-        assert_true(can_auth_check_command(auth, &plain, scene.request + 2));
-    }
-    can_auth_close(auth);
-    return talk;
-}
-
-static void test_codes_are_made_for_the_number_given(void **state)
-{
-    (void)state;
-    add_reply("\x83\x00", 2);
-    add_reply(nonce_reply, 10);
-    const board_talk_t talk = talk_with_key();
-    assert_true(talk.replied);
-    assert_false(talk.keyless);
-    assert_int_equal(talk.result, COMMAND_OK);
-    assert_int_equal(scene.requests, 2);
-    assert_int_equal(scene.newest, 2 + CAN_AUTH_COMMAND_BYTES);
-}
-
-static void test_refused_codes_and_lost_replies_are_tried_again(void **state)
-{
-    (void)state;
-    add_reply("\x83\x00", 2);
-    add_reply(nonce_reply, 10);
-    add_reply("\x83\x03", 2); /* another has asked for a number meanwhile */
-    add_reply(nonce_reply, 10);
-    const board_talk_t refused = talk_with_key();
-    assert_true(refused.replied && refused.result == COMMAND_OK);
-    assert_int_equal(scene.requests, 4);
-    close_scene(NULL);
-    open_scene(NULL);
-    add_reply("\x83\x00", 2);
-    add_reply(nonce_reply, 10);
-    add_reply("", 0);
-    add_reply(nonce_reply, 10);
-    const board_talk_t lost = talk_with_key();
-    assert_true(lost.replied && lost.result == COMMAND_OK);
-    assert_int_equal(scene.requests, 4);
-}
-
-static void test_boards_without_a_key_do_nothing(void **state)
-{
-    (void)state;
-    add_reply("\x88\x01", 2);
-    const board_talk_t talk = talk_with_key();
-    assert_true(talk.replied && talk.keyless);
-    assert_int_equal(scene.requests, 1);
-    assert_int_equal(scene.newest, 1);
 }
 
 static void test_only_who_is_there_replies(void **state)
@@ -322,9 +139,6 @@ int main(void)
         cmocka_unit_test(test_a_lost_frame_costs_a_try),
         cmocka_unit_test_setup_teardown(test_what_is_heard_of_a_board_that_does_not_reply, open_scene, close_scene),
         cmocka_unit_test_setup_teardown(test_a_reply_with_earlier_events_is_passed_over, open_scene, close_scene),
-        cmocka_unit_test_setup_teardown(test_codes_are_made_for_the_number_given, open_scene, close_scene),
-        cmocka_unit_test_setup_teardown(test_refused_codes_and_lost_replies_are_tried_again, open_scene, close_scene),
-        cmocka_unit_test_setup_teardown(test_boards_without_a_key_do_nothing, open_scene, close_scene),
         cmocka_unit_test_setup_teardown(test_bus_that_goes_is_an_error, open_scene, close_scene),
         cmocka_unit_test(test_stop_ends_the_wait),
     };
