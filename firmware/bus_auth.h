@@ -23,15 +23,19 @@
 #include "hal/hal_can.h"
 
 enum {
-    BUS_AUTH_NONCE_US = 2000000, /**< a number for a command is good for so long */
-    BUS_AUTH_SILENT_US = 2000000 /**< without the session's tracker for so long: a session is wanted */
+    BUS_AUTH_NONCE_US = 2000000,  /**< a number for a command is good for so long */
+    BUS_AUTH_SILENT_US = 2000000, /**< without the session's tracker for so long: a session is wanted */
+    BUS_AUTH_CODE_US = 20000, /**< a code comes so soon after its message has begun: before FrameClock is due again */
+    BUS_AUTH_MOST_UNCODED = 3 /**< messages one after the other whose codes may be lost; more never had one */
 };
 
 /** Frames of a message whose code has not come yet. */
 typedef struct {
     hal_can_frame_t frame[CAN_AUTH_MAX_FRAMES];
     int frames;
-    bool whole; /**< the code is due */
+    bool whole;     /**< the code is due */
+    int uncoded;    /**< whole messages since the newest that was believed, whose codes never came; */
+    uint8_t newest; /**< that one's counter */
 } bus_auth_message_t;
 
 /** All zero bytes: the room has no key, every frame is believed, nothing is signed. */

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "firmware/bus_auth.h"
+#include "firmware/can_classic.h"
 #include "firmware/can_frame_clock.h"
 #include "firmware/can_latency.h"
 
@@ -37,28 +38,42 @@ static void count(can_faults_t *faults, can_auth_result_t result)
     }
 }
 
-/* Its first frame has come: whatever was there has no code and will have none. */
+/* Another has begun: what was there has no code and will have none. */
 static void begin(bus_auth_message_t *message, can_faults_t *faults)
 {
-    faults->auth_unsigned += message->whole;
+    message->uncoded += message->whole;
+    if (message->uncoded > BUS_AUTH_MOST_UNCODED) {
+        faults->auth_unsigned += (uint32_t)message->uncoded;
+        message->uncoded = 0;
+    }
     message->frames = 0;
     message->whole = false;
 }
 
-static void add(bus_auth_message_t *message, const hal_can_frame_t *frame, bool whole)
+/* A message is believed. Those before it without a code were the sender's as far as he has made more than were
+ * believed: their codes were lost. The rest is of strangers. */
+static void settle(bus_auth_message_t *message, int frames, can_faults_t *faults)
 {
-    message->frame[message->frames++] = *frame;
-    message->whole = whole;
+    uint32_t lost = 0;
+    (void)can_e2e_step(message->newest, can_classic_counter(&message->frame[0]), CAN_E2E_P01_COUNTERS, &lost);
+    const uint32_t uncoded = (uint32_t)message->uncoded;
+    lost = lost < uncoded ? lost : uncoded;
+    faults->auth_lost += lost;
+    faults->auth_unsigned += uncoded - lost;
+    message->uncoded = 0;
+    message->newest = can_classic_counter(&message->frame[frames - 1]);
 }
 
 /* One frame of `frames` in their order; what comes out of order is of no message. */
 static void collect(bus_auth_message_t *message, const hal_can_frame_t *frame, int part, int frames,
                     can_faults_t *faults)
 {
-    if (part == 0)
+    if (part == 0 || message->whole)
         begin(message, faults);
-    if (message->frames == part && !message->whole)
-        add(message, frame, part == frames - 1);
+    if (message->frames == part) {
+        message->frame[message->frames++] = *frame;
+        message->whole = message->frames == frames;
+    }
 }
 
 /* While a change is announced, the epoch to come and the one that holds are one message. */
@@ -66,15 +81,16 @@ static void collect_epoch(bus_auth_message_t *message, const hal_can_frame_t *fr
 {
     can_frame_clock_t clock = {.to_come = false};
     (void)can_frame_clock_decode(&clock, frame);
-    if (clock.to_come || message->whole)
-        begin(message, faults);
-    add(message, frame, !clock.to_come);
+    const bool second = clock.changes && !clock.to_come;
+    collect(message, frame, second ? 1 : 0, clock.to_come || second ? 2 : 1, faults);
 }
 
 /* The code has come. @return Frames that are believed. */
 static int judge(bus_auth_t *auth, can_auth_stream_t *stream, bus_auth_message_t *message, const hal_can_frame_t *tag,
                  hal_can_frame_t *believed, can_faults_t *faults)
 {
+    if (message->whole && tag->time_us - message->frame[0].time_us > BUS_AUTH_CODE_US)
+        begin(message, faults); /* this is the code of the next, which was lost */
     const int frames = message->frames;
     const bool whole = message->whole;
     message->frames = 0;
@@ -90,6 +106,7 @@ static int judge(bus_auth_t *auth, can_auth_stream_t *stream, bus_auth_message_t
     if (result != CAN_AUTH_OK)
         return 0;
     auth_clock_hear(&auth->clock, stream->newest_us, tag->time_us);
+    settle(message, frames, faults);
     memcpy(believed, message->frame, (size_t)frames * sizeof *believed);
     return frames;
 }

@@ -38,7 +38,8 @@ typedef struct {
     uint32_t tracking_lost; /**< good frames in which the tracker says that it has lost the viewer */
     uint32_t io;            /**< failures of the CAN driver */
     uint32_t overrun;       /**< calls that took BUS_RECEIVE_FRAMES: the controller may have dropped some */
-    uint32_t auth_unsigned; /**< with a key: messages that came without a code: refused */
+    uint32_t auth_lost;     /**< with a key: messages whose code was lost, as the next one's counter shows */
+    uint32_t auth_unsigned; /**< messages that came without a code: refused */
     uint32_t auth_forged;   /**< whose code is not of this key and session */
     uint32_t auth_replayed; /**< whose code is right, and which had come before, or newer ones */
     uint32_t auth_stale;    /**< which were held back */

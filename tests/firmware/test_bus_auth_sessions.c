@@ -50,6 +50,35 @@ static void test_a_tracker_that_starts_anew_is_believed_again(void **state)
     assert_nobody_far();
 }
 
+/* Lost frames are not taken for a stranger's, and every board is told the session in the end. */
+static void test_lost_frames_are_not_strangers(void **state)
+{
+    (void)state;
+    sim_bus_fail(sim_world_bus(k.room.world), SIM_BUS_LOSE, (sim_bus_fail_t){.ppm = 20000});
+    key_run(500);
+    key_track(k.key, 1);
+    key_run(20000);
+    assert_boards_are(CAN_BOARD_RUNNING);
+    for (int b = 0; b < ROOM_BENCH_BOARDS; b++)
+        assert_true(k.room.room.fd || key_faults(b)->auth_lost > 10);
+    assert_refused(0);
+}
+
+/* Frames of talks are lost, too: a talk is begun again. */
+static void test_boards_are_told_whatever_is_lost(void **state)
+{
+    (void)state;
+    sim_bus_fail(sim_world_bus(k.room.world), SIM_BUS_LOSE, (sim_bus_fail_t){.ppm = 30000});
+    for (uint64_t session = 1; session <= 10; session++) {
+        key_track(k.key, session);
+        key_run(4 * KEY_AGAIN_MS);
+        for (int b = 0; b < ROOM_BENCH_BOARDS; b++)
+            if (key_board(b)->auth.session != session)
+                fail_msg("session %d: board %d has another", (int)session, b);
+        assert_true(k.tracker.auth.teller.told >= ROOM_BENCH_BOARDS);
+    }
+}
+
 /* The first of two trackers with the key is heard again when the second has gone. */
 static void test_a_tracker_comes_back_when_another_has_gone(void **state)
 {
@@ -103,6 +132,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         BOTH(test_a_board_that_starts_anew_is_told_again),
         BOTH(test_a_tracker_that_starts_anew_is_believed_again),
+        BOTH(test_lost_frames_are_not_strangers),
+        BOTH(test_boards_are_told_whatever_is_lost),
         BOTH(test_a_tracker_comes_back_when_another_has_gone),
         BOTH(test_boards_sign_when_the_tracker_has_gone),
     };
