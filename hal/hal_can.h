@@ -35,7 +35,7 @@ typedef enum {
 /**
  * Take the oldest received frame, without blocking.
  *
- * The implementation keeps at least 256 frames; when more are waiting it drops the newest and counts them.
+ * At least 256 frames are kept; while so many are waiting, those that come are lost.
  *
  * @param      can    An open controller.
  * @param[out] frame  Written only when HAL_OK is returned. Must not be NULL.
@@ -48,7 +48,10 @@ MUST_CHECK hal_status_t hal_can_receive(hal_can_t *can, hal_can_frame_t *frame);
 /**
  * Queue a frame for sending, without blocking.
  *
- * @return HAL_OK        queued; it is sent when it wins arbitration, lower identifiers first;
+ * Frames of one identifier are sent in the order queued. Of others, which of the waiting ones goes first is the
+ * implementation's: the one queued first, or the one that wins arbitration, lower identifiers first.
+ *
+ * @return HAL_OK        queued; it is sent when it wins arbitration on the bus;
  *         HAL_FULL      the queue is full, the frame was not taken;
  *         HAL_BAD_CALL  identifier or length is illegal, or FD on a classic bus;
  *         HAL_IO        bus off, or driver failure; the frame was not taken.

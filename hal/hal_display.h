@@ -31,8 +31,10 @@ MUST_CHECK hal_status_t hal_display_back_buffer(hal_display_t *display, picture_
                                                 picture_matrix_t matrix, picture_t *buffer);
 
 /**
- * Show the borrowed back buffer from the next vertical blank on; of several presented before one blank, the last.
- * Returns at once; never tears.
+ * Show the borrowed back buffer from the next vertical blank on. Returns at once; never tears.
+ *
+ * Of several presented before one blank the last stays. A display that can't take a picture back shows the first of
+ * them for one refresh before it; those between are never shown.
  *
  * @return HAL_OK; HAL_BAD_CALL when no buffer is borrowed; HAL_IO when the flip was refused: the wall keeps its
  *         last picture and the buffer counts as given back.

@@ -26,7 +26,9 @@ typedef enum {
 MUST_CHECK hal_status_t hal_gpio_set(hal_gpio_t *gpio, hal_gpio_line_t line, bool high);
 
 /**
- * Take the oldest rising edge of an input, without blocking. At least 16 are kept, then the oldest is dropped.
+ * Take the oldest rising edge of an input, without blocking.
+ *
+ * At least 16 are kept. When more are waiting some are lost, the oldest or the newest, and the rest stay in order.
  *
  * @param[out] time_us  When it rose, on hal_time's clock; written only when HAL_OK is returned.
  * @return HAL_OK; HAL_EMPTY when none is waiting; HAL_BAD_CALL when the line is an output; HAL_IO.
