@@ -31,6 +31,11 @@ int64_t frame_clock_start_us(const frame_clock_t *clock, int64_t number)
     return frame_rate_length_us(clock->rate, number) + clock->now.phase_us;
 }
 
+int32_t frame_clock_off_us(const frame_clock_t *clock, int64_t bus_us)
+{
+    return (int32_t)(bus_us - frame_clock_start_us(clock, nearest(clock, &clock->now, bus_us)));
+}
+
 int64_t frame_clock_picture_number(const frame_clock_t *clock, const frame_epoch_t *epoch, int64_t capture_bus_us)
 {
     /* start(n) >= capture + lag - period / 4, and start(n - 1) is not */

@@ -145,6 +145,10 @@ frame_step_t frame_clock_step(frame_clock_t *clock, hal_can_t *can, const frame_
 /** @return Bus time at which a refresh begins. */
 int64_t frame_clock_start_us(const frame_clock_t *clock, int64_t number);
 
+/** @return By how much a moment of bus time is later than the refresh of the present epoch that begins nearest to it.
+ */
+int32_t frame_clock_off_us(const frame_clock_t *clock, int64_t bus_us);
+
 /** @return Number of the first content of this epoch that has a picture captured then: its own one without a tag. */
 int64_t frame_clock_picture_number(const frame_clock_t *clock, const frame_epoch_t *epoch, int64_t capture_bus_us);
 

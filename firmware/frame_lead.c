@@ -67,11 +67,7 @@ static void propose(frame_clock_t *clock, const frame_step_t *step, int32_t phas
 /* How late the house's frame is, or without a house signal the leader's panel. */
 static int32_t house_off_us(const frame_clock_t *clock, const frame_step_t *step, const frame_blank_t *blank)
 {
-    if (!blank->genlocked)
-        return step->off_us;
-    const int64_t nearest =
-        frame_rate_before(clock->rate, blank->house_us - clock->now.phase_us + frame_rate_period_us(clock->rate) / 2);
-    return (int32_t)(blank->house_us - frame_clock_start_us(clock, nearest));
+    return blank->genlocked ? frame_clock_off_us(clock, blank->house_us) : step->off_us;
 }
 
 /* The house's frame, or else the leader's panel, and what the boards need are what the room goes by. */

@@ -26,11 +26,8 @@ void house_signal_advance(house_signal_t *house, const sim_world_t *world, const
 /* The newest edge that a board has seen, less the begin of the refresh that is nearest to it. */
 static int32_t edge_off_us(const projector_t *projector)
 {
-    const frame_clock_t *clock = &projector->choice.clock;
     const int64_t house_us = bus_time_from_local(&projector->time.time, projector->choice.house_us);
-    const int64_t half_us = frame_rate_period_us(clock->rate) / 2;
-    const int64_t nearest = frame_rate_before(clock->rate, house_us - clock->now.phase_us + half_us);
-    return (int32_t)(house_us - frame_clock_start_us(clock, nearest));
+    return frame_clock_off_us(&projector->choice.clock, house_us);
 }
 
 void house_signal_note(run_frame_t *frame, const sim_world_t *world, const room_t *room)
