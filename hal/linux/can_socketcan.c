@@ -113,7 +113,7 @@ static bool take_heard(hal_can_t *can, uint32_t dropped_before, hal_can_frame_t 
     take_error(can, &error);
     if (!socketcan_frame_unpack(&found, &heard->frame, heard->size) || (heard->own && !is_awaited(can, &heard->frame)))
         return false;
-    const socketcan_now_t now = socketcan_now();
+    const clock_pair_t now = clock_pair();
     found.time_us = socketcan_stamp_ns(&can->stamp, &heard->stamps, &now) / 1000;
     *frame = found;
     return true;
@@ -134,7 +134,7 @@ hal_status_t hal_can_receive(hal_can_t *can, hal_can_frame_t *frame)
         can->emptied = true;
         if (failure != EAGAIN)
             return HAL_IO;
-        can->stamp.empty = socketcan_now();
+        can->stamp.empty = clock_pair();
         break;
     }
     return can->usable ? HAL_EMPTY : HAL_IO;
@@ -211,7 +211,7 @@ hal_status_t can_socketcan_open(hal_can_t **can, const can_socketcan_settings_t 
     made->socket = -1;
     made->emptied = true;
     made->may_restart = socketcan_netlink_may_restart();
-    made->stamp.empty = socketcan_now();
+    made->stamp.empty = clock_pair();
     hal_status_t status = socketcan_socket_open(&made->socket, settings, error);
     if (status == HAL_OK)
         status = open_link(made, error);

@@ -7,6 +7,7 @@
 #include <time.h>
 #include <xf86drm.h>
 
+#include "hal/linux/clocks.h"
 #include "hal/linux/display_kms_events.h"
 #include "hal/linux/display_kms_state.h"
 
@@ -99,7 +100,7 @@ hal_status_t hal_display_present(hal_display_t *display)
 
 int64_t hal_display_next_vblank_us(const hal_display_t *display)
 {
-    return kms_blank_after(&display->blank, kms_now_ns()) / 1000;
+    return kms_blank_after(&display->blank, clock_monotonic_ns()) / 1000;
 }
 
 static void sleep_until(int64_t time_ns)
@@ -114,7 +115,8 @@ static void sleep_until(int64_t time_ns)
 static bool wait_for_answer(hal_display_t *display, uint64_t token, int64_t until_ns)
 {
     struct pollfd card = {.fd = display->card.file, .events = POLLIN};
-    for (int64_t now_ns = kms_now_ns(); display->answered < token && now_ns < until_ns; now_ns = kms_now_ns()) {
+    for (int64_t now_ns = clock_monotonic_ns(); display->answered < token && now_ns < until_ns;
+         now_ns = clock_monotonic_ns()) {
         const struct timespec left = {.tv_nsec = until_ns - now_ns};
         if (ppoll(&card, 1, &left, NULL) > 0 && (card.revents & POLLIN) == 0)
             sleep_until(until_ns); /* the card is gone */
@@ -138,14 +140,14 @@ static bool wait_for_driver(hal_display_t *display, int64_t until_ns)
 
 static bool wait_for_clock(hal_display_t *display, int64_t until_ns)
 {
-    sleep_until(kms_blank_after(&display->blank, kms_now_ns()));
+    sleep_until(kms_blank_after(&display->blank, clock_monotonic_ns()));
     take_events(display);
     return display->flying == KMS_NO_BUFFER || wait_for_answer(display, display->flight, until_ns);
 }
 
 hal_status_t hal_display_wait_vblank(hal_display_t *display)
 {
-    const int64_t begin_ns = kms_now_ns(), end_ns = begin_ns + NO_BLANK_NS;
+    const int64_t begin_ns = clock_monotonic_ns(), end_ns = begin_ns + NO_BLANK_NS;
     kms_state_look(display, begin_ns);
     if (!display->dark && (display->by_clock ? wait_for_clock(display, end_ns) : wait_for_driver(display, end_ns)))
         return HAL_OK;

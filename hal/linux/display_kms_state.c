@@ -6,18 +6,12 @@
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 #include <xf86drm.h>
 
-static const int64_t SECOND_NS = 1000000000, LOOK_NS = 50000000, RETRY_NS = 500000000;
+#include "hal/linux/clocks.h"
 
-int64_t kms_now_ns(void)
-{
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return now.tv_sec * SECOND_NS + now.tv_nsec;
-}
+static const int64_t LOOK_NS = 50000000, RETRY_NS = 500000000;
 
 kms_scan_t kms_state_scan(const hal_display_t *display, int32_t buffer)
 {
@@ -48,7 +42,8 @@ static void begin_blanks(hal_display_t *display, int64_t period_ns)
 {
     uint64_t sequence = 0, time_ns = 0;
     display->by_clock = drmCrtcGetSequence(display->card.file, display->pipe.screen.crtc, &sequence, &time_ns) != 0;
-    kms_blank_init(&display->blank, period_ns, time_ns == 0 ? kms_now_ns() : (int64_t)time_ns, (uint32_t)sequence);
+    kms_blank_init(&display->blank, period_ns, time_ns == 0 ? clock_monotonic_ns() : (int64_t)time_ns,
+                   (uint32_t)sequence);
 }
 
 static int32_t newest_buffer(const hal_display_t *display)

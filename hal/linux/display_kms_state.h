@@ -38,9 +38,6 @@ struct hal_display {
     int64_t lit_ns;    /**< when lighting it was tried last */
 };
 
-/** @return CLOCK_MONOTONIC. */
-int64_t kms_now_ns(void);
-
 /** @return The picture in a buffer, to be scanned out. */
 kms_scan_t kms_state_scan(const hal_display_t *display, int32_t buffer);
 

@@ -2,35 +2,10 @@
 // When a frame was received, on CLOCK_MONOTONIC, from stamps that the kernel and the controller make on other clocks.
 #include "hal/linux/socketcan_stamp.h"
 
-#include <time.h>
-
-enum { TRIES = 3, CLOSE_NS = 5000, MILLION = 1000000 };
+enum { MILLION = 1000000 };
 
 /* In the year 2116; distances of two stamps then fit 64 bits. */
 static const int64_t LAST_NS = INT64_MAX / 2;
-
-static int64_t read_ns(clockid_t clock)
-{
-    struct timespec now;
-    clock_gettime(clock, &now);
-    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
-}
-
-socketcan_now_t socketcan_now(void)
-{
-    socketcan_now_t best = {0, 0};
-    int64_t best_width_ns = INT64_MAX;
-    for (int i = 0; i < TRIES && best_width_ns > CLOSE_NS; i++) {
-        const int64_t before_ns = read_ns(CLOCK_MONOTONIC);
-        const int64_t realtime_ns = read_ns(CLOCK_REALTIME);
-        const int64_t width_ns = read_ns(CLOCK_MONOTONIC) - before_ns;
-        if (width_ns < best_width_ns) {
-            best_width_ns = width_ns;
-            best = (socketcan_now_t){before_ns + width_ns / 2, realtime_ns};
-        }
-    }
-    return best;
-}
 
 static int64_t clamp(int64_t value, int64_t first, int64_t last)
 {
@@ -40,12 +15,12 @@ static int64_t clamp(int64_t value, int64_t first, int64_t last)
 }
 
 /* Out of the interval that the frame must lie in? */
-static bool is_wrong(int64_t time_ns, const socketcan_stamp_t *s, const socketcan_now_t *now)
+static bool is_wrong(int64_t time_ns, const socketcan_stamp_t *s, const clock_pair_t *now)
 {
     return time_ns > now->monotonic_ns || time_ns < s->empty.monotonic_ns - SOCKETCAN_STAMP_QUEUE_NS;
 }
 
-static int64_t from_kernel(const socketcan_stamp_t *s, int64_t kernel_ns, const socketcan_now_t *now)
+static int64_t from_kernel(const socketcan_stamp_t *s, int64_t kernel_ns, const clock_pair_t *now)
 {
     if (kernel_ns <= 0 || kernel_ns > LAST_NS)
         return now->monotonic_ns;
@@ -69,7 +44,7 @@ static int64_t from_controller(socketcan_stamp_t *s, int64_t controller_ns, int6
     return controller_ns + s->distance_ns;
 }
 
-int64_t socketcan_stamp_ns(socketcan_stamp_t *stamp, const socketcan_stamps_t *of, const socketcan_now_t *now)
+int64_t socketcan_stamp_ns(socketcan_stamp_t *stamp, const socketcan_stamps_t *of, const clock_pair_t *now)
 {
     const int64_t time_ns = from_controller(stamp, of->controller_ns, from_kernel(stamp, of->kernel_ns, now));
     stamp->last_ns = clamp(time_ns, stamp->last_ns, now->monotonic_ns);

@@ -19,23 +19,20 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "hal/linux/clocks.h"
+
 enum {
     SOCKETCAN_STAMP_DRIFT_PPM = 100,
     SOCKETCAN_STAMP_QUEUE_NS = 10000000, /**< from the kernel's stamp to the queue at most, on a busy system */
     SOCKETCAN_STAMP_JUMP_NS = 50000000   /**< more latency than this: the controller's clock has begun anew */
 };
 
-/** Both clocks at one moment, ns. */
-typedef struct {
-    int64_t monotonic_ns, realtime_ns;
-} socketcan_now_t;
-
 /** All zero but for empty at first. */
 typedef struct {
-    socketcan_now_t empty; /**< when no frame was waiting last */
-    int64_t last_ns;       /**< of the frame before, CLOCK_MONOTONIC */
-    bool distance_known;   /**< of the controller's clock */
-    int64_t distance_ns;   /**< CLOCK_MONOTONIC less the controller's, at distance_at_ns */
+    clock_pair_t empty;  /**< when no frame was waiting last */
+    int64_t last_ns;     /**< of the frame before, CLOCK_MONOTONIC */
+    bool distance_known; /**< of the controller's clock */
+    int64_t distance_ns; /**< CLOCK_MONOTONIC less the controller's, at distance_at_ns */
     int64_t distance_at_ns;
 } socketcan_stamp_t;
 
@@ -45,10 +42,7 @@ typedef struct {
     int64_t controller_ns; /**< the controller's clock, from any moment */
 } socketcan_stamps_t;
 
-/** @return Both clocks, read within few microseconds unless the thread is interrupted three times. */
-socketcan_now_t socketcan_now(void);
-
 /** @return CLOCK_MONOTONIC, ns: never after now, never before the last one returned. */
-int64_t socketcan_stamp_ns(socketcan_stamp_t *stamp, const socketcan_stamps_t *of, const socketcan_now_t *now);
+int64_t socketcan_stamp_ns(socketcan_stamp_t *stamp, const socketcan_stamps_t *of, const clock_pair_t *now);
 
 #endif

@@ -14,6 +14,7 @@
 #include <unistd.h>
 #include <xf86drm.h>
 
+#include "hal/linux/clocks.h"
 #include "hal/linux/display_kms.h"
 #include "tests/support/scratch.h"
 
@@ -26,7 +27,7 @@ static scratch_t scratch;
 
 void kms_kernel_answer(uint64_t token)
 {
-    kms_kernel.time_ns = kms_now_ns();
+    kms_kernel.time_ns = clock_monotonic_ns();
     const struct drm_event_vblank event = {
         .base = {DRM_EVENT_FLIP_COMPLETE, sizeof event},
         .user_data = token,
@@ -94,7 +95,7 @@ int drmCrtcQueueSequence(int card, uint32_t crtc, uint32_t flags, uint64_t seque
     const struct drm_event_crtc_sequence event = {
         .base = {DRM_EVENT_CRTC_SEQUENCE, sizeof event},
         .user_data = token,
-        .time_ns = kms_kernel.time_ns = kms_now_ns(),
+        .time_ns = kms_kernel.time_ns = clock_monotonic_ns(),
         .sequence = ++kms_kernel.sequence,
     };
     assert_int_equal(write(kms_kernel.events[1], &event, sizeof event), sizeof event);
@@ -147,7 +148,7 @@ int kms_kernel_set_up(void **state)
     kms_kernel.blanks = kms_kernel.at_once = kms_kernel.master = true;
     kms_kernel.mode = (drmModeModeInfo){
         .clock = 1200, .hdisplay = KMS_KERNEL_WIDTH, .htotal = 200, .vdisplay = KMS_KERNEL_HEIGHT, .vtotal = 100};
-    kms_kernel.time_ns = kms_now_ns();
+    kms_kernel.time_ns = clock_monotonic_ns();
     assert_int_equal(pipe2(kms_kernel.events, O_NONBLOCK | O_CLOEXEC), 0);
     kms_display = (hal_display_t){
         .card = {.file = kms_kernel.events[0]},

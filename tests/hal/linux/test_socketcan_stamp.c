@@ -25,7 +25,7 @@ static socketcan_stamp_t stamp_at_100_s(void)
 static int64_t read_at_100_s(int64_t at, int64_t ahead_then, int64_t ahead_now)
 {
     socketcan_stamp_t stamp = stamp_at_100_s();
-    const socketcan_now_t now = {100 * S, 100 * S + REALTIME + ahead_now};
+    const clock_pair_t now = {100 * S, 100 * S + REALTIME + ahead_now};
     const socketcan_stamps_t of = {.kernel_ns = at + REALTIME + ahead_then};
     return socketcan_stamp_ns(&stamp, &of, &now);
 }
@@ -65,7 +65,7 @@ static void useless_stamps_are_now(void **state)
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++) {
             socketcan_stamp_t stamp = stamp_at_100_s();
-            const socketcan_now_t now = {100 * S, 100 * S + REALTIME};
+            const clock_pair_t now = {100 * S, 100 * S + REALTIME};
             const socketcan_stamps_t of = {useless[i], useless[j]};
             assert_int_equal(socketcan_stamp_ns(&stamp, &of, &now), 100 * S);
         }
@@ -75,7 +75,7 @@ static void stamps_never_go_back(void **state)
 {
     (void)state;
     socketcan_stamp_t stamp = stamp_at_100_s();
-    const socketcan_now_t now = {100 * S, 100 * S + REALTIME};
+    const clock_pair_t now = {100 * S, 100 * S + REALTIME};
     const socketcan_stamps_t later = {.kernel_ns = 100 * S - MS + REALTIME};
     const socketcan_stamps_t earlier = {.kernel_ns = 100 * S - 2 * MS + REALTIME};
     assert_int_equal(socketcan_stamp_ns(&stamp, &later, &now), 100 * S - MS);
@@ -98,7 +98,7 @@ static void hear(controller_t *c)
     const int64_t elapsed = c->now - c->begun;
     const socketcan_stamps_t of = {.kernel_ns = c->now + latency + REALTIME,
                                    .controller_ns = 1 + elapsed + elapsed / MS * c->drift_ppm};
-    const socketcan_now_t now = {c->now + 3 * MS, c->now + 3 * MS + REALTIME};
+    const clock_pair_t now = {c->now + 3 * MS, c->now + 3 * MS + REALTIME};
     c->error = socketcan_stamp_ns(&c->stamp, &of, &now) - c->now;
     c->stamp.empty = now;
     if (c->error < 0 || c->error > latency)
@@ -141,10 +141,10 @@ static void a_controllers_clock_may_begin_anew(void **state)
 static void both_clocks_are_read_together(void **state)
 {
     (void)state;
-    socketcan_now_t before = socketcan_now();
+    clock_pair_t before = clock_pair();
     assert_true(before.monotonic_ns > 0 && before.realtime_ns > before.monotonic_ns);
     for (int i = 0; i < 100; i++) {
-        const socketcan_now_t now = socketcan_now();
+        const clock_pair_t now = clock_pair();
         assert_true(now.monotonic_ns >= before.monotonic_ns);
         before = now;
     }
