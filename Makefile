@@ -45,7 +45,7 @@ HAL_C      := $(wildcard $(addprefix hal/linux/,clocks.c key_file.c random_linux
 GPIOD      := $(if $(shell grep -s gpiod_request_config $(SYSROOT)/usr/include/gpiod.h),2,1)
 LINUX_C    := $(filter-out $(HAL_C) hal/linux/gpio_gpiod_v%.c,$(wildcard hal/linux/*.c)) \
               $(wildcard hal/linux/gpio_gpiod_v$(GPIOD).c)
-LINUX_LIBS := -lgpiod -lmnl -ldrm -lsystemd -ludev
+LINUX_LIBS := -lgpiod -lmnl -ldrm
 ifeq ($(HAL),linux)
 LINUX_C    += $(wildcard hal/linux/*.cpp)
 LINUX_LIBS += -lcamera -lcamera-base -lstdc++

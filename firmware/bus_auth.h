@@ -59,7 +59,7 @@ typedef struct {
 /**
  * Begin without a session.
  *
- * @param auth    Must outlive this; NULL: no key.
+ * @param key     Must outlive this; NULL: no key.
  * @param viewer  Whose poses the board follows.
  * @param seed    Random, another one at every start: numbers for commands come from it and the key.
  */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of hal_board_check(): the machine and this process's rights on it.
 #include <inttypes.h>
+#include <linux/capability.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +9,7 @@
 
 #include "hal/linux/check.h"
 
-enum { CAP_NET_ADMIN_BIT = 12, CAP_IPC_LOCK_BIT = 14, CAP_SYS_NICE_BIT = 23, NAME_LENGTH = 32 };
+enum { NAME_LENGTH = 32 };
 
 /* Memory that is locked: one projector_t (projector.h), the programs' code, and buffers of camera and display. */
 static const uint64_t locked_bytes = UINT64_C(400) << 20;
@@ -35,7 +36,7 @@ static void check_priority(check_t *check)
     const rlim_t wanted = (rlim_t)check->table->workers.priority;
     if (wanted == 0)
         return;
-    if (is_capable(check, CAP_SYS_NICE_BIT))
+    if (is_capable(check, CAP_SYS_NICE))
         check_found(check, "rights: real-time priority %u, by CAP_SYS_NICE", (unsigned)wanted);
     else if (getrlimit(RLIMIT_RTPRIO, &limit) == 0 && limit.rlim_cur >= wanted)
         check_found(check, "rights: real-time priority %u", (unsigned)wanted);
@@ -47,7 +48,7 @@ static void check_priority(check_t *check)
 static void check_locked_memory(check_t *check)
 {
     struct rlimit limit;
-    if (is_capable(check, CAP_IPC_LOCK_BIT))
+    if (is_capable(check, CAP_IPC_LOCK))
         check_found(check, "rights: locked memory, by CAP_IPC_LOCK");
     else if (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur >= locked_bytes)
         check_found(check, "rights: locked memory");
@@ -59,7 +60,7 @@ static void check_locked_memory(check_t *check)
 /* Who has it may restart a controller that is bus-off; otherwise the interface's restart-ms must. */
 static void check_network_right(check_t *check)
 {
-    if (is_capable(check, CAP_NET_ADMIN_BIT))
+    if (is_capable(check, CAP_NET_ADMIN))
         check_found(check, "rights: CAP_NET_ADMIN, to restart the bus after bus-off");
     else
         check_found(check, "rights: no CAP_NET_ADMIN, so restart-ms of the bus must end a bus-off");

@@ -21,7 +21,9 @@ static void note_driver(kms_card_t *card)
     drmFreeVersion(version);
 }
 
-hal_status_t kms_card_open(kms_card_t *card, int32_t number, char error[HAL_BOARD_ERROR_LENGTH])
+/* @return HAL_OK: with no connector yet; HAL_EMPTY: there is no such card, or it has no connectors (a GPU that only
+   computes); HAL_IO: it refuses. */
+static hal_status_t open_card(kms_card_t *card, int32_t number, char error[HAL_BOARD_ERROR_LENGTH])
 {
     kms_card_t opened = {.number = number};
     (void)snprintf(opened.path, sizeof opened.path, "/dev/dri/card%d", number);
@@ -48,7 +50,8 @@ void kms_card_close(const kms_card_t *card)
     close(card->file);
 }
 
-drmModeConnector *kms_card_connector(const kms_card_t *card, int32_t index)
+/* @return One of its connectors, freshly probed, for drmModeFreeConnector(); NULL past the last, or on failure. */
+static drmModeConnector *connector_of(const kms_card_t *card, int32_t index)
 {
     drmModeRes *resources = drmModeGetResources(card->file);
     drmModeConnector *connector = resources == NULL || index >= resources->count_connectors
@@ -58,7 +61,8 @@ drmModeConnector *kms_card_connector(const kms_card_t *card, int32_t index)
     return connector;
 }
 
-void kms_connector_name(char name[KMS_NAME_LENGTH], const drmModeConnector *connector)
+/* As HDMI-A-1. */
+static void write_name(char name[KMS_NAME_LENGTH], const drmModeConnector *connector)
 {
     const char *type = drmModeGetConnectorTypeName(connector->connector_type);
     (void)snprintf(name, KMS_NAME_LENGTH, "%s-%u", type == NULL ? "Unknown" : type, connector->connector_type_id);
@@ -76,9 +80,9 @@ static void note_seen(char seen[LIST_LENGTH], const kms_card_t *card, const char
 static drmModeConnector *find_on(kms_card_t *card, const kms_name_t *name, char seen[LIST_LENGTH])
 {
     drmModeConnector *connector;
-    for (int32_t i = 0; (connector = kms_card_connector(card, i)) != NULL; i++) {
+    for (int32_t i = 0; (connector = connector_of(card, i)) != NULL; i++) {
         const bool connected = connector->connection == DRM_MODE_CONNECTED;
-        kms_connector_name(card->connector_name, connector);
+        write_name(card->connector_name, connector);
         card->connector = connector->connector_id;
         note_seen(seen, card, card->connector_name, connected);
         if (connected && (name->connector[0] == '\0' || strcmp(name->connector, card->connector_name) == 0))
@@ -95,7 +99,7 @@ hal_status_t kms_card_find(kms_card_t *card, drmModeConnector **connector, const
     char seen[LIST_LENGTH] = "";
     for (int32_t number = any ? 0 : name->card; number < (any ? KMS_MAX_CARDS : name->card + 1); number++) {
         kms_card_t opened;
-        const hal_status_t status = kms_card_open(&opened, number, error);
+        const hal_status_t status = open_card(&opened, number, error);
         if (status == HAL_IO)
             return HAL_IO;
         if (status != HAL_OK)

@@ -24,26 +24,7 @@ typedef struct {
 } kms_card_t;
 
 /**
- * Open a card that has connectors. It need not be free: see kms_card_own().
- *
- * @param[out] card   Written only when HAL_OK is returned: with no connector yet.
- * @param[out] error  Written only when HAL_IO is returned.
- * @return HAL_OK; HAL_EMPTY when there is no such card, or it has no connectors (a GPU that only computes); HAL_IO when
- *         it refuses: one line.
- */
-MUST_CHECK hal_status_t kms_card_open(kms_card_t *card, int32_t number, char error[HAL_BOARD_ERROR_LENGTH]);
-
-/** Close it. The kernel drops what it still has of this user's. */
-void kms_card_close(const kms_card_t *card);
-
-/** @return One of its connectors, freshly probed, for drmModeFreeConnector(); NULL past the last, or on failure. */
-drmModeConnector *kms_card_connector(const kms_card_t *card, int32_t index);
-
-/** Write a connector's name, as HDMI-A-1. */
-void kms_connector_name(char name[KMS_NAME_LENGTH], const drmModeConnector *connector);
-
-/**
- * Find the connector, and open its card.
+ * Find the connector, with a projector on it, and open its card.
  *
  * @param[out] card       Written only when HAL_OK is returned.
  * @param[out] connector  Likewise: what it offers, for drmModeFreeConnector().
@@ -51,6 +32,9 @@ void kms_connector_name(char name[KMS_NAME_LENGTH], const drmModeConnector *conn
  */
 MUST_CHECK hal_status_t kms_card_find(kms_card_t *card, drmModeConnector **connector, const kms_name_t *name,
                                       char error[HAL_BOARD_ERROR_LENGTH]);
+
+/** Close it. The kernel drops what it still has of this user's. */
+void kms_card_close(const kms_card_t *card);
 
 /**
  * Be the one user who may set modes (DRM master), with atomic mode setting and every plane.

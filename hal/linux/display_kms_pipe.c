@@ -190,11 +190,8 @@ int kms_pipe_darken(const kms_pipe_t *pipe)
 
 void kms_pipe_close(kms_pipe_t *pipe)
 {
-    if (pipe->mode != 0 &&
-        kms_request_commit(&pipe->former, pipe->screen.card, DRM_MODE_ATOMIC_ALLOW_MODESET, 0) != 0 &&
-        kms_pipe_darken(pipe) != 0) {
-        /* the display is gone, or another program's: there is nothing left to set back */
-    }
+    if (pipe->mode != 0 && kms_request_commit(&pipe->former, pipe->screen.card, DRM_MODE_ATOMIC_ALLOW_MODESET, 0) != 0)
+        (void)kms_pipe_darken(pipe); /* refused too when the display is gone, or another program's */
     for (int i = 0; i <= KMS_COLOUR_PROPERTIES; i++)
         if (pipe->former_blob[i] != 0)
             (void)drmModeDestroyPropertyBlob(pipe->screen.card, pipe->former_blob[i]);

@@ -78,10 +78,8 @@ static void try_to_light(hal_display_t *display)
     if (!drmIsMaster(display->card.file) && drmSetMaster(display->card.file) != 0)
         return;
     drmModeConnector *connector = drmModeGetConnector(display->card.file, display->card.connector);
-    if (connector != NULL && connector->connection == DRM_MODE_CONNECTED &&
-        (kms_pipe_darken(&display->pipe) != 0 || kms_state_light(display, connector) != 0)) {
-        /* it stays dark until the next try */
-    }
+    if (connector != NULL && connector->connection == DRM_MODE_CONNECTED && kms_pipe_darken(&display->pipe) == 0)
+        (void)kms_state_light(display, connector); /* on failure it stays dark until the next try */
     drmModeFreeConnector(connector);
 }
 

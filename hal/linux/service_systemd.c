@@ -19,14 +19,13 @@ struct hal_service {
     int socket;
     struct sockaddr_un address;
     socklen_t address_length;
-    int64_t feed_every_us; /**< 0: it does not watch */
+    int64_t feed_every_us; /* 0: it does not watch */
     int64_t feed_due_us;
-    const char *told_state; /**< the last one, or NULL */
+    const char *told_state; /* the last one, or NULL */
     bool told_ready;
 };
 
-/* How often to feed a manager that ends this process when it has heard nothing for $WATCHDOG_USEC: four times as often.
- */
+/* A manager that ends this process when it has heard nothing for $WATCHDOG_USEC is fed four times as often. */
 static int64_t feed_every_us(void)
 {
     const char *period = getenv("WATCHDOG_USEC"), *process = getenv("WATCHDOG_PID");

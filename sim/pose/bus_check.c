@@ -11,10 +11,15 @@
 #include "sim/pose/bus_judge.h"
 #include "sim/pose/event_text.h"
 
-enum { LEAST_POSES_PER_S = 20, MOST_LOAD_PPM = 700000, US_PER_S = 1000000 };
-enum { MOST_TIME_ERROR_US = 1000 };
-enum { DELAY_STEP_US = 500, MOST_DELAY_US = 50000 /**< that a room file may have */ };
-enum { HEARTBEAT_GAP_US = 3 * CAN_HEARTBEAT_PERIOD_MS * 1000 / 2 };
+enum {
+    US_PER_S = 1000000,
+    LEAST_POSES_PER_S = 20,
+    MOST_LOAD_PPM = 700000,
+    MOST_TIME_ERROR_US = 1000,
+    DELAY_STEP_US = 500,
+    MOST_DELAY_US = 50000, /* that a room file may have */
+    HEARTBEAT_GAP_US = 3 * CAN_HEARTBEAT_PERIOD_MS * 1000 / 2
+};
 
 /* A count that should be 0: said only when it is not. */
 static void say_count(bus_judge_t *judge, int viewer, uint32_t count, const char *what)
@@ -47,9 +52,11 @@ static void check_delay(bus_judge_t *judge, int number, const bus_watch_viewer_t
     if (pose_delay_us == BUS_CHECK_NO_DELAY)
         return;
     if (viewer->delays == 0)
-        bus_judge_say(judge, false,
-                      "viewer %d: how late its poses come is not known: it takes a tracker's bus time, and %s", number,
-                      "4 to 20 s of it; see --seconds");
+        bus_judge_say(
+            judge, false,
+            "viewer %d: how late its poses come is not known: it takes a tracker's bus time, and 4 to 20 s of "
+            "it; see --seconds",
+            number);
     else if (needed_us > MOST_DELAY_US)
         bus_judge_say(judge, false,
                       "viewer %d: poses come up to %.1f ms after their capture, which no pose_delay_ms allows for",

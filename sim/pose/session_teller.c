@@ -94,11 +94,3 @@ bool session_teller_next(session_teller_t *teller, hal_can_frame_t *frame, int64
     }
     return false;
 }
-
-bool session_teller_busy(const session_teller_t *teller)
-{
-    for (int node = 1; node <= CAN_MAX_NODE; node++)
-        if (teller->board[node].stage != SESSION_IDLE)
-            return true;
-    return false;
-}

@@ -40,7 +40,4 @@ void session_teller_hear(session_teller_t *teller, const hal_can_frame_t *frame,
 /** @return Is there a frame to be sent now? Call it until there is none, about every 5 ms. */
 bool session_teller_next(session_teller_t *teller, hal_can_frame_t *frame, int64_t now_us);
 
-/** @return Is a talk under way? */
-bool session_teller_busy(const session_teller_t *teller);
-
 #endif
