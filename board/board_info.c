@@ -2,13 +2,6 @@
 // Prints what a board is made of, how it is wired, and how it is set up.
 #include "board/board_info.h"
 
-static const char *const line_names[HAL_GPIO_LINES] = {
-    [HAL_GPIO_LED] = "LED",
-    [HAL_GPIO_STROBE] = "strobe",
-    [HAL_GPIO_GENLOCK] = "genlock",
-    [HAL_GPIO_LAMP] = "lamp",
-};
-
 static void print_devices(FILE *to, const board_table_t *table, const board_info_t *info)
 {
     const hal_workers_settings_t *workers = &table->workers;
@@ -37,21 +30,22 @@ static void print_wire(FILE *to, const board_wire_t *wire, const board_table_t *
     if (wire->line == BOARD_WIRE_FIXED)
         fprintf(to, "%s", wire->signal);
     else
-        fprintf(to, "%s%d, %s", prefix, (int)table->lines.line[wire->line], line_names[wire->line]);
+        fprintf(to, "%s%d, %s", prefix, (int)table->lines.line[wire->line],
+                hal_gpio_line_name((hal_gpio_line_t)wire->line));
     fprintf(to, " | %s |\n", wire->to);
 }
 
 /* @return Has every line that the board has exactly one wire, and no other line any? */
 static bool lines_are_wired(const board_table_t *table, const board_info_t *info)
 {
-    for (int32_t line = 0; line < HAL_GPIO_LINES; line++) {
+    for (hal_gpio_line_t line = 0; line < HAL_GPIO_LINES; line++) {
         const bool there = table->lines.chip != NULL && table->lines.line[line] != HAL_BOARD_NO_LINE;
         int wires = 0;
         for (int i = 0; i < BOARD_WIRES && info->wire[i].to != NULL; i++)
-            wires += info->wire[i].line == line;
+            wires += info->wire[i].line == (int32_t)line;
         if (wires != (there ? 1 : 0)) {
-            fprintf(stderr, "board/%s/info.c: line %s has %d wires, expected %d\n", table->name, line_names[line],
-                    wires, there ? 1 : 0);
+            fprintf(stderr, "board/%s/info.c: line %s has %d wires, expected %d\n", table->name,
+                    hal_gpio_line_name(line), wires, there ? 1 : 0);
             return false;
         }
     }

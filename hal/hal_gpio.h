@@ -18,6 +18,13 @@ typedef enum {
     HAL_GPIO_LINES
 } hal_gpio_line_t;
 
+/** @return What people call it. */
+static inline const char *hal_gpio_line_name(hal_gpio_line_t line)
+{
+    static const char *const names[HAL_GPIO_LINES] = {"LED", "strobe", "genlock", "lamp"};
+    return names[line];
+}
+
 /**
  * Drive an output.
  *

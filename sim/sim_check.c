@@ -70,7 +70,7 @@ bool hal_board_check(const board_table_t *table, const hal_board_needs_t *needs,
     const bool bus = check_bus(table, print, context);
     const bool video = check_video(table, needs, print, context);
     const bool panel = check_panel(table, print, context);
-    print(context, HAL_CHECK_FOUND, "lines, watchdog: simulated");
+    print(context, HAL_CHECK_FOUND, "gpio, watchdog: simulated");
     return bus && video && panel;
 }
 

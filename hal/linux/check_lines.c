@@ -9,31 +9,26 @@
 #include <unistd.h>
 
 #include "hal/linux/check.h"
+#include "hal/linux/gpiod_lines.h"
 
 enum { CHIPS = 64 };
 
-static const char *const line_names[HAL_GPIO_LINES] = {
-    [HAL_GPIO_LED] = "LED",
-    [HAL_GPIO_STROBE] = "strobe",
-    [HAL_GPIO_GENLOCK] = "genlock",
-    [HAL_GPIO_LAMP] = "lamp",
-};
-
-static void check_line(check_t *check, int file, const struct gpiochip_info *chip, int32_t line)
+static void check_line(check_t *check, int file, const struct gpiochip_info *chip, hal_gpio_line_t line)
 {
     const int32_t offset = check->table->lines.line[line];
+    const char *name = hal_gpio_line_name(line);
     struct gpio_v2_line_info info = {.offset = (uint32_t)offset};
     if (offset == HAL_BOARD_NO_LINE)
         return;
     if (offset < 0 || (uint32_t)offset >= chip->lines || ioctl(file, GPIO_V2_GET_LINEINFO_IOCTL, &info) != 0)
-        check_miss(check, "name one of them in the board's table", "lines: %s is line %d of %s, expected 0 to %u",
-                   line_names[line], (int)offset, chip->label, chip->lines - 1);
-    else if ((info.flags & GPIO_V2_LINE_FLAG_USED) != 0 && strcmp(info.consumer, "wallwarp") != 0)
+        check_miss(check, "name one of them in the board's table", "gpio %s: has no line %d (%s), expected 0 to %u",
+                   chip->label, (int)offset, name, chip->lines - 1);
+    else if ((info.flags & GPIO_V2_LINE_FLAG_USED) != 0 && strcmp(info.consumer, gpiod_lines_consumer) != 0)
         check_miss(check, "stop that program, or take the overlay of that driver out",
-                   "lines: %s, line %d of %s, is held by \"%s\"", line_names[line], (int)offset, chip->label,
+                   "gpio %s: line %d (%s) is held by \"%s\"", chip->label, (int)offset, name,
                    info.consumer[0] == '\0' ? "a driver" : info.consumer);
     else
-        check_found(check, "lines: %s, line %d of %s%s%s", line_names[line], (int)offset, chip->label,
+        check_found(check, "gpio %s: line %d (%s)%s%s", chip->label, (int)offset, name,
                     info.name[0] == '\0' ? "" : ", ", info.name);
 }
 
@@ -62,13 +57,13 @@ void check_lines(check_t *check)
         struct gpiochip_info chip;
         const int file = open_chip(n, &chip, path);
         if (file < 0 && errno == EACCES) {
-            check_refused(check, "lines", path, EACCES, "gpio");
+            check_refused(check, "gpio", path, EACCES, "gpio");
             return;
         }
         if (file < 0)
             continue;
         const bool found = strcmp(chip.label, wanted) == 0 || strcmp(chip.name, wanted) == 0;
-        for (int32_t line = 0; found && line < HAL_GPIO_LINES; line++)
+        for (hal_gpio_line_t line = 0; found && line < HAL_GPIO_LINES; line++)
             check_line(check, file, &chip, line);
         close(file);
         if (found)
@@ -76,6 +71,6 @@ void check_lines(check_t *check)
         if (used < sizeof there)
             used += (size_t)snprintf(there + used, sizeof there - used, " %s", chip.label);
     }
-    check_miss(check, "gpiodetect; is BOARD= of the build this board?", "lines: there is no chip %s; found%s", wanted,
-               used == 0 ? " none" : there);
+    check_miss(check, "gpiodetect; is BOARD= of the build this board?", "gpio %s: there is no such chip; found%s",
+               wanted, used == 0 ? " none" : there);
 }

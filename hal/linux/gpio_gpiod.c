@@ -16,8 +16,6 @@ struct hal_gpio {
     int first_edge, edges;
 };
 
-static const char *const names[HAL_GPIO_LINES] = {"led", "strobe", "genlock", "lamp"};
-
 /* The lamp is the first to be held low. */
 static const hal_gpio_line_t order[HAL_GPIO_LINES] = {HAL_GPIO_LAMP, HAL_GPIO_STROBE, HAL_GPIO_LED, HAL_GPIO_GENLOCK};
 
@@ -39,16 +37,16 @@ static hal_status_t explain_line(hal_gpio_t *gpio, const hal_board_lines_t *line
         gpiod_lines_holder(gpio->lines, offset, holder);
         return board_error(error,
                            "gpio %.60s: line %d (%s) is held by \"%s\": end that, or choose a free one of `gpioinfo`",
-                           lines->chip, offset, names[line], holder[0] == '\0' ? "kernel" : holder);
+                           lines->chip, offset, hal_gpio_line_name(line), holder[0] == '\0' ? "kernel" : holder);
     }
     if (failure == EINVAL)
         return board_error(error, "gpio %.60s: has no line %d (%s), expected one of `gpioinfo`", lines->chip, offset,
-                           names[line]);
+                           hal_gpio_line_name(line));
     if (line == HAL_GPIO_GENLOCK)
         return board_error(error, "gpio %.60s: line %d (%s): %s, expected an input with interrupts", lines->chip,
-                           offset, names[line], strerror(failure));
-    return board_error(error, "gpio %.60s: line %d (%s): %s, expected an output", lines->chip, offset, names[line],
-                       strerror(failure));
+                           offset, hal_gpio_line_name(line), strerror(failure));
+    return board_error(error, "gpio %.60s: line %d (%s): %s, expected an output", lines->chip, offset,
+                       hal_gpio_line_name(line), strerror(failure));
 }
 
 static hal_status_t take_lines(hal_gpio_t *gpio, const hal_board_lines_t *lines, char error[HAL_BOARD_ERROR_LENGTH])

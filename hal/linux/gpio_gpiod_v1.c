@@ -8,8 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const char consumer[] = "wallwarp";
-
 struct gpiod_lines {
     struct gpiod_chip *chip;
     struct gpiod_line *line[HAL_GPIO_LINES];
@@ -40,13 +38,16 @@ void gpiod_lines_close(gpiod_lines_t *lines)
 int gpiod_lines_take_output(gpiod_lines_t *lines, hal_gpio_line_t line, int32_t offset)
 {
     lines->line[line] = gpiod_chip_get_line(lines->chip, (unsigned)offset);
-    return lines->line[line] != NULL && gpiod_line_request_output(lines->line[line], consumer, 0) == 0 ? 0 : errno;
+    return lines->line[line] != NULL && gpiod_line_request_output(lines->line[line], gpiod_lines_consumer, 0) == 0
+               ? 0
+               : errno;
 }
 
 int gpiod_lines_take_input(gpiod_lines_t *lines, hal_gpio_line_t line, int32_t offset)
 {
     lines->line[line] = gpiod_chip_get_line(lines->chip, (unsigned)offset);
-    if (lines->line[line] == NULL || gpiod_line_request_rising_edge_events(lines->line[line], consumer) != 0)
+    if (lines->line[line] == NULL ||
+        gpiod_line_request_rising_edge_events(lines->line[line], gpiod_lines_consumer) != 0)
         return errno;
     const int file = gpiod_line_event_get_fd(lines->line[line]);
     const int flags = fcntl(file, F_GETFL);

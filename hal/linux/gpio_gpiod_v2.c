@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char consumer[] = "wallwarp";
-
 struct gpiod_lines {
     struct gpiod_chip *chip;
     struct gpiod_line_request *request[HAL_GPIO_LINES];
@@ -96,7 +94,7 @@ static int take(gpiod_lines_t *lines, hal_gpio_line_t line, int32_t offset, bool
     int failure = ENOMEM;
     lines->offset[line] = (unsigned)offset;
     if (settings != NULL && config != NULL && request != NULL) {
-        gpiod_request_config_set_consumer(request, consumer);
+        gpiod_request_config_set_consumer(request, gpiod_lines_consumer);
         const bool legal = output ? gpiod_line_settings_set_direction(settings, GPIOD_LINE_DIRECTION_OUTPUT) == 0 &&
                                         gpiod_line_settings_set_output_value(settings, GPIOD_LINE_VALUE_INACTIVE) == 0
                                   : gpiod_line_settings_set_direction(settings, GPIOD_LINE_DIRECTION_INPUT) == 0 &&

@@ -10,6 +10,9 @@
 
 enum { GPIOD_LINES_EDGES = 16, GPIOD_LINES_NAME_LENGTH = 32 };
 
+/** What lines are taken as: the name that others see. */
+static const char gpiod_lines_consumer[] = "wallwarp";
+
 /** A chip, and those of its lines that were taken, each under the number of what it is for. */
 typedef struct gpiod_lines gpiod_lines_t;
 

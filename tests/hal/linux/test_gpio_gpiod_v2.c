@@ -96,7 +96,7 @@ static void refused_lines_are_told(void **state)
         "gpio gpiochip7: line 13 (lamp) is held by \"kernel\": end that, or choose a free one of `gpioinfo`");
     assert_refused(12, ENXIO, NULL,
                    "gpio gpiochip7: line 12 (genlock): No such device or address, expected an input with interrupts");
-    assert_refused(10, EINVAL, NULL, "gpio gpiochip7: has no line 10 (led), expected one of `gpioinfo`");
+    assert_refused(10, EINVAL, NULL, "gpio gpiochip7: has no line 10 (LED), expected one of `gpioinfo`");
 }
 
 static void chips_are_looked_for(void **state)
