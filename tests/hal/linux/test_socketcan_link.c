@@ -226,29 +226,27 @@ static void other_links_are_refused_with_the_command(void **state)
     assert_refused(&told, &CLASSIC_ROOM, "no way back from bus-off, expected restart-ms or CAP_NET_ADMIN");
 }
 
-static void listeners_get_another_command(void **state)
+static void assert_said(const told_t *told, const can_socketcan_settings_t *room, const char *expected)
 {
-    (void)state;
     char error[HAL_BOARD_ERROR_LENGTH];
-    told_t told = GOOD;
-    told.modes |= CAN_CTRLMODE_LISTENONLY;
-    const socketcan_link_t link = link_of(&told);
-    assert_int_equal(socketcan_link_check(&link, &CLASSIC_ROOM, false, error), HAL_IO);
-    assert_string_equal(error, "can can0: listens only: `ip link set can0 down; ip link set can0 up txqueuelen 64 type "
-                               "can bitrate 500000 restart-ms 100 listen-only off`");
+    const socketcan_link_t link = link_of(told);
+    assert_int_equal(socketcan_link_check(&link, room, false, error), HAL_IO);
+    assert_string_equal(error, expected);
 }
 
-static void virtual_links_get_another_command(void **state)
+static void some_links_get_another_command(void **state)
 {
     (void)state;
-    char error[HAL_BOARD_ERROR_LENGTH];
-    told_t told = GOOD;
-    told.kind = "vcan";
-    told.mtu = CAN_MTU;
-    const socketcan_link_t link = link_of(&told);
-    assert_int_equal(socketcan_link_check(&link, &FD_ROOM, false, error), HAL_IO);
-    assert_string_equal(error, "can can0: classic frames only, the room has CAN FD: `ip link set can0 down; "
-                               "ip link set can0 up mtu 72`");
+    told_t listener = GOOD, virtual_one = GOOD;
+    listener.modes |= CAN_CTRLMODE_LISTENONLY;
+    assert_said(&listener, &CLASSIC_ROOM,
+                "can can0: listens only: `ip link set can0 down; ip link set can0 up txqueuelen 64 type can bitrate "
+                "500000 restart-ms 100 listen-only off`");
+    virtual_one.kind = "vcan";
+    virtual_one.mtu = CAN_MTU;
+    assert_said(&virtual_one, &FD_ROOM,
+                "can can0: classic frames only, the room has CAN FD: `ip link set can0 down; ip link set can0 up mtu "
+                "72`");
 }
 
 /* The longest there is must not be cut. */
@@ -293,8 +291,8 @@ int main(void)
         cmocka_unit_test(other_kinds_have_no_controller), cmocka_unit_test(deleted_ones_have_no_index),
         cmocka_unit_test(other_messages_are_refused),     cmocka_unit_test(damaged_messages_do_no_harm),
         cmocka_unit_test(links_as_wanted_are_taken),      cmocka_unit_test(other_links_are_refused_with_the_command),
-        cmocka_unit_test(listeners_get_another_command),  cmocka_unit_test(virtual_links_get_another_command),
-        cmocka_unit_test(the_command_is_whole),           cmocka_unit_test(this_machines_kernel_answers),
+        cmocka_unit_test(some_links_get_another_command), cmocka_unit_test(the_command_is_whole),
+        cmocka_unit_test(this_machines_kernel_answers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,8 +49,8 @@ test_health() {
     sender=$!
     started="$started $sender"
     sleep 0.5
-    pose_tool monitor --bus "$bus" --seconds 2
-    [ $? -eq 0 ] && grep -q '^     0  set  ' "$scratch/stdout" && grep -q '^     2  running ' "$scratch/stdout"
+    pose_tool monitor --bus "$bus" --seconds 2 &&
+        grep -q '^     0  set  ' "$scratch/stdout" && grep -q '^     2  running ' "$scratch/stdout"
     check "monitor shows the viewer and the boards" $?
     pose_tool check --bus "$bus" --seconds 2 --room "$scratch/classic.yaml"
     grep -q ' viewer 0: ' "$scratch/stdout" && grep -q '^ok   load: ' "$scratch/stdout"
@@ -64,8 +64,8 @@ test_health() {
     pose_tool fault --bus "$bus" --corrupt 100 --speed 10 "$scratch/walk.log" &&
         grep -q '^30 frames sent of 30: 0 dropped, 0 duplicated, 30 corrupted, 0 delayed$' "$scratch/stdout"
     check "faults are counted" $?
-    pose_tool fault --bus "$bus" --flood 0.5
-    [ $? -eq 0 ] && [ "$(sed -n 's/ frames sent$//p' "$scratch/stdout")" -gt 100 ]
+    pose_tool fault --bus "$bus" --flood 0.5 &&
+        [ "$(sed -n 's/ frames sent$//p' "$scratch/stdout")" -gt 100 ]
     check "the bus is flooded" $?
     refuses 1 "only a virtual interface can play bus-off: \`modprobe vcan" "$build/wallwarp-pose" fault --bus "$bus" --bus-off
     end_room

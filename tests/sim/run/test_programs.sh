@@ -81,7 +81,7 @@ test_options() {
     for format in nv12 yuyv; do
         for display in xrgb8888 $format; do
             run "$scratch/fd.yaml" --video $picture --poses "$scratch/one.csv" --out "$scratch/$format-$display" \
-                --camera $format --display $display
+                --camera "$format" --display "$display"
             check "a camera of $format, a display of $display" $?
             awk -F, 'NR > 1 && !($3 > 15 && $3 <= $4) { bad = 1 } END { exit bad || NR < 2 }' \
                 "$scratch/$format-$display/psnr.csv"
@@ -196,8 +196,8 @@ test_bad_runs() {
         refuses 2 "--rate: found \"$rate\", expected 1 to 240 Hz" "$@" --video pattern --poses "$scratch/ten.csv" \
             --rate $rate
     done
-    for genlock in x 1001 0, 0,64 0,1x; do
-        refuses 2 "--genlock: found \"$genlock\"" "$@" --video pattern --poses "$scratch/ten.csv" --genlock $genlock
+    for genlock in x 1001 '0,' 0,64 0,1x; do
+        refuses 2 "--genlock: found \"$genlock\"" "$@" --video pattern --poses "$scratch/ten.csv" --genlock "$genlock"
     done
     refuses 1 "no board has node 9" "$@" --video pattern --poses "$scratch/ten.csv" --genlock 0,9
     refuses 2 "one room file" "$@" "$scratch/fd.yaml" --video pattern --poses "$scratch/ten.csv"
