@@ -345,7 +345,8 @@ INFO     = build/info/$(BOARD)
 .PHONY: info
 info: $(INFO) ## Print what a board is made of, its wiring and its set-up: make BOARD=rpi4 info
 	$(Q)$(INFO)
-build/info/%: board/%/board.c board/%/info.c board/print_info.c board/board_info.c board/board_info.h hal/hal_board.h
+build/info/%: board/%/board.c board/%/info.c board/print_info.c board/board_info.c board/raspberry_pi.c \
+    board/board_info.h hal/hal_board.h hal/hal_gpio.h
 	$(Q)mkdir -p $(@D)
 	$(Q)$(HOST_CC) -I. -std=c11 -Wall -Wextra -Werror -o $@ $(filter %.c,$^)
 

@@ -41,8 +41,8 @@ static bool lines_are_wired(const board_table_t *table, const board_info_t *info
     for (hal_gpio_line_t line = 0; line < HAL_GPIO_LINES; line++) {
         const bool there = table->lines.chip != NULL && table->lines.line[line] != HAL_BOARD_NO_LINE;
         int wires = 0;
-        for (int i = 0; i < BOARD_WIRES && info->wire[i].to != NULL; i++)
-            wires += info->wire[i].line == (int32_t)line;
+        for (const board_wire_t *wire = info->wire; wire != NULL && wire->to != NULL; wire++)
+            wires += wire->line == (int32_t)line;
         if (wires != (there ? 1 : 0)) {
             fprintf(stderr, "board/%s/info.c: line %s has %d wires, expected %d\n", table->name,
                     hal_gpio_line_name(line), wires, there ? 1 : 0);
@@ -57,10 +57,10 @@ bool board_info_print(FILE *to, const board_table_t *table, const board_info_t *
     if (!lines_are_wired(table, info))
         return false;
     print_devices(to, table, info);
-    if (info->wire[0].to != NULL)
+    if (info->wire != NULL)
         fprintf(to, "\n| %s | signal | to |\n|---|---|---|\n", info->header);
-    for (int i = 0; i < BOARD_WIRES && info->wire[i].to != NULL; i++)
-        print_wire(to, &info->wire[i], table, info->line_prefix);
+    for (const board_wire_t *wire = info->wire; wire != NULL && wire->to != NULL; wire++)
+        print_wire(to, wire, table, info->line_prefix);
     for (int i = 0; i < BOARD_STEPS && info->step[i].where != NULL; i++)
         fprintf(to, "\n%s:\n\n```\n%s```\n", info->step[i].where, info->step[i].lines);
     return ferror(to) == 0;

@@ -9,7 +9,7 @@
 
 #include "hal/hal_board.h"
 
-enum { BOARD_WIRES = 16, BOARD_STEPS = 8, BOARD_NO_PIN = 0, BOARD_WIRE_FIXED = -1 };
+enum { BOARD_STEPS = 8, BOARD_NO_PIN = 0, BOARD_WIRE_FIXED = -1 };
 
 /** One wire from the board. */
 typedef struct {
@@ -29,11 +29,14 @@ typedef struct {
     const char *machine;            /**< what to buy, and with which system on it */
     const char *header;             /**< of the column of pins */
     const char *line_prefix;        /**< name of a line at the board is this and its offset */
-    board_wire_t wire[BOARD_WIRES]; /**< up to the first that goes nowhere (to: NULL) */
+    const board_wire_t *wire;       /**< up to one that goes nowhere (to: NULL); NULL: none */
     board_step_t step[BOARD_STEPS]; /**< up to the first with where: NULL */
 } board_info_t;
 
 extern const board_info_t board_info;
+
+/** Of a Raspberry Pi 4 or 5 with a CAN FD hat. */
+extern const board_wire_t raspberry_pi_wires[];
 
 /** Print table and info as Markdown. @return false when that failed, or when a line of the table has no wire. */
 bool board_info_print(FILE *to, const board_table_t *table, const board_info_t *info);

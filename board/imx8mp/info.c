@@ -7,7 +7,7 @@ const board_info_t board_info = {
     .header = "pin",
     .line_prefix = "GPIO5_IO",
     .wire =
-        {
+        (const board_wire_t[]){
             {BOARD_NO_PIN, BOARD_WIRE_FIXED, "pads SPDIF_TX and SPDIF_RX, FlexCAN1", "transceiver on the board"},
             {BOARD_NO_PIN, BOARD_WIRE_FIXED, "GPIO5_IO5, standby of the transceiver", "driven by the kernel"},
             {BOARD_NO_PIN, HAL_GPIO_LED, NULL, "pad ECSPI1_SCLK: LED to ground through 1 kOhm"},
@@ -15,6 +15,7 @@ const board_info_t board_info = {
             {BOARD_NO_PIN, HAL_GPIO_GENLOCK, NULL,
              "pad ECSPI1_MISO: house sync, at the level of that pad, rising edge once per frame"},
             {BOARD_NO_PIN, HAL_GPIO_LAMP, NULL, "pad ECSPI1_SS0: lamp enable of the projector, 10 kOhm to ground"},
+            {.to = NULL},
         },
     .step =
         {

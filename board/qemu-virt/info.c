@@ -7,10 +7,11 @@ const board_info_t board_info = {
     .header = "pin",
     .line_prefix = "line ",
     .wire =
-        {
+        (const board_wire_t[]){
             {BOARD_NO_PIN, HAL_GPIO_LED, NULL, "gpio-sim"},
             {BOARD_NO_PIN, HAL_GPIO_STROBE, NULL, "gpio-sim"},
             {BOARD_NO_PIN, HAL_GPIO_GENLOCK, NULL, "gpio-sim"},
             {BOARD_NO_PIN, HAL_GPIO_LAMP, NULL, "gpio-sim"},
+            {.to = NULL},
         },
 };

@@ -28,8 +28,8 @@ done
 [ $boards -ge 5 ] || fail "found $boards boards, expected 5 or more"
 
 # A wire of a line that the board has not, and a line without a wire, are refused.
-sed 's/HAL_GPIO_LAMP, NULL/HAL_GPIO_LED, NULL/' board/rpi4/info.c >"$folder/info.c"
-gcc -I. -std=c11 -o "$folder/wrong" board/rpi4/board.c "$folder/info.c" board/print_info.c board/board_info.c &&
+sed 's/HAL_GPIO_LAMP, NULL/HAL_GPIO_LED, NULL/' board/qemu-virt/info.c >"$folder/info.c"
+gcc -I. -std=c11 -o "$folder/wrong" board/qemu-virt/board.c "$folder/info.c" board/print_info.c board/board_info.c &&
     "$folder/wrong" >"$folder/printed" 2>&1 && fail "two wires of one line were printed"
 grep -q 'line LED has 2 wires, expected 1' "$folder/printed" || fail "two wires of one line: $(cat "$folder/printed")"
 
