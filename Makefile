@@ -6,6 +6,8 @@
 .SECONDARY:
 .SUFFIXES:
 
+# --- the board and its compiler ---------------------------------------------------------------------------------------
+
 # The board to build for, one of board/*/: its board.mk names the devices to link with (HAL: sim or linux), the compiler's
 # prefix (CROSS: none for this machine), and flags for its CPU.
 BOARD := host
@@ -36,6 +38,8 @@ LDLIBS   := -Wl,--as-needed -lcyaml -lyaml -lpng -lz -ljansson -lcbor -llo -lmbe
 SYSROOT := $(if $(CROSS),build/sysroot)
 MACHINE := $(CPU) $(SYSROOT:%=--sysroot=%) $(if $(findstring clang,$(CC)),$(CROSS:%-=--target=%))
 
+# --- what is built of which files -------------------------------------------------------------------------------------
+
 PROGRAMS := wallwarp wallwarp-pose $(if $(filter sim,$(HAL)),wallwarp-sim wallwarp-eval)
 MAINS    := firmware/main.c sim/wallwarp_sim.c sim/wallwarp_eval.c sim/wallwarp_pose.c
 
@@ -63,35 +67,7 @@ HELPERS := $(BUILD)/tests/sim/bus/serve_bus $(BUILD)/tests/hal/linux/print_edid 
            $(addprefix $(BUILD)/tests/firmware/,print_frames print_reports agreement_hour) $(BUILD)/count_plugin.so \
            $(BUILD)/cache_plugin.so
 
-.PHONY: all programs
-all: setup-$(if $(CROSS),board,demo) ## Build firmware and tools into build/host, or for another board: make BOARD=rpi4
-	$(Q)$(MAKE) --no-print-directory programs
-programs: $(PROGRAMS:%=$(BUILD)/%)
-
-# Install what is missing, once: see board/setup.sh.
-.PHONY: setup-demo setup-test setup-bench setup-board
-setup-demo setup-test setup-bench setup-board:
-	$(Q)board/setup.sh $(@:setup-%=%)
-
-build/sysroot.made: board/sysroot.sh
-	$(if $(V),,@echo "  ROOT  build/sysroot")
-	$(Q)board/sysroot.sh build/sysroot
-	$(Q)touch $@
-
-.PHONY: boards
-boards: setup-board ## Build firmware and tools for every board, each into build/NAME
-	$(Q)for board in $(BOARDS); do $(MAKE) --no-print-directory BOARD=$$board programs || exit 1; done
-
-.PHONY: demo
-demo: setup-demo ## Run a room of three walls and a floor, and write the page build/demo/index.html
-	$(Q)$(MAKE) --no-print-directory programs
-	$(Q)$(BUILD)/wallwarp-sim run sim/demo/room.yaml --video sim/demo/studio_960x540.png --poses sim/demo/walk.csv \
-	    --original tests/images/studio_1920x1080.png --out build/demo
-
-.PHONY: study
-study: setup-demo ## Do the paper's experiments again, and write the page build/study/index.html
-	$(Q)$(MAKE) --no-print-directory programs
-	$(Q)$(BUILD)/wallwarp-eval study --out build/study
+# --- compile and link -------------------------------------------------------------------------------------------------
 
 $(BUILD)/obj/hal/linux/%.o $(BUILD)/obj/tests/hal/linux/%.o $(BUILD)/obj/tests/board/virtual/%.o: \
     CPPFLAGS += -isystem $(SYSROOT)/usr/include/libdrm
@@ -99,6 +75,12 @@ $(BUILD)/obj/%.c.o: %.c | $(SYSROOT:%=%.made)
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  CC    $<")
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(MACHINE) -c $< -o $@
+
+$(BUILD)/obj/%.cpp.o: %.cpp | $(SYSROOT:%=%.made)
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  CXX   $<")
+	$(Q)$(CXX) $(CPPFLAGS) $(addprefix -isystem $(SYSROOT)/usr/include/,opencv4 libcamera) -std=c++17 $(OPT) -g \
+	    -Wall -Wextra -Werror -Wpedantic -Wshadow -Wconversion -Wsign-conversion $(MACHINE) -c $< -o $@
 
 # NEON's lanes wrap; SIMDe makes them of signed integers in C.
 # gcc 12: SIMDe's loops end it with an internal error ("in compute_live_loop_exits") unless partial redundancies stay,
@@ -169,7 +151,50 @@ $(addprefix $(BUILD)/tests/hal/linux/test_display_kms_,frames dark): $(call obje
 
 $(BUILD)/tests/firmware/test_frame_tag_jpeg: LDLIBS += -ljpeg
 
-# --- tests -----------------------------------------------------------------------------------------------------------
+# --- for users --------------------------------------------------------------------------------------------------------
+
+.PHONY: all programs
+all: setup-$(if $(CROSS),board,demo) ## Build firmware and tools into build/host, or for another board: make BOARD=rpi4
+	$(Q)$(MAKE) --no-print-directory programs
+programs: $(PROGRAMS:%=$(BUILD)/%) ## Build them, and install nothing
+
+# Install what is missing, once: see board/setup.sh.
+.PHONY: setup-demo setup-test setup-bench setup-board
+setup-demo setup-test setup-bench setup-board:
+	$(Q)board/setup.sh $(@:setup-%=%)
+
+build/sysroot.made: board/sysroot.sh
+	$(if $(V),,@echo "  ROOT  build/sysroot")
+	$(Q)board/sysroot.sh build/sysroot
+	$(Q)touch $@
+
+.PHONY: boards
+boards: setup-board ## Build firmware and tools for every board, each into build/NAME
+	$(Q)for board in $(BOARDS); do $(MAKE) --no-print-directory BOARD=$$board programs || exit 1; done
+
+.PHONY: demo
+demo: setup-demo ## Run a room of three walls and a floor, and write the page build/demo/index.html
+	$(Q)$(MAKE) --no-print-directory programs
+	$(Q)$(BUILD)/wallwarp-sim run sim/demo/room.yaml --video sim/demo/studio_960x540.png --poses sim/demo/walk.csv \
+	    --original tests/images/studio_1920x1080.png --out build/demo
+
+.PHONY: study
+study: setup-demo ## Do the paper's experiments again, and write the page build/study/index.html
+	$(Q)$(MAKE) --no-print-directory programs
+	$(Q)$(BUILD)/wallwarp-eval study --out build/study
+
+# What a board needs is printed from its own tables by a program of this machine, whatever the board is built with.
+HOST_CC := gcc
+INFO     = build/info/$(BOARD)
+.PHONY: info
+info: $(INFO) ## Print what a board is made of, its wiring and its set-up: make BOARD=rpi4 info
+	$(Q)$(INFO)
+build/info/%: board/%/board.c board/%/info.c board/print_info.c board/board_info.c board/raspberry_pi.c \
+    board/board_info.h hal/hal_board.h hal/hal_gpio.h
+	$(Q)mkdir -p $(@D)
+	$(Q)$(HOST_CC) -I. -std=c11 -Wall -Wextra -Werror -o $@ $(filter %.c,$^)
+
+# --- tests ------------------------------------------------------------------------------------------------------------
 
 # The same bytes from other compilers, optimisations and CPUs: each variant builds warp_fixed and golden_hashes anew.
 GOLDEN          := $(BUILD)/golden_hashes
@@ -186,7 +211,7 @@ $(CHECK_KERNELS): $(call objects,$(wildcard tests/kernels/*.c)) $(BUILD)/libwarp
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 
 .PHONY: golden $(GOLDEN_VARIANTS:%=golden-%)
-golden: $(GOLDEN_VARIANTS:%=golden-%)
+golden: $(GOLDEN_VARIANTS:%=golden-%) ## Build what checks that other compilers and CPUs make the same bytes
 $(GOLDEN_VARIANTS:%=golden-%): golden-%:
 	$(Q)variant=$* && $(MAKE) --no-print-directory BUILD=build/variants/$* CC=$${variant%-O?} OPT=-$${variant##*-} \
 	    LDFLAGS=-static build/variants/$*/golden_hashes $(if $(filter $*,$(KERNEL_VARIANTS)),build/variants/$*/check_kernels)
@@ -243,6 +268,10 @@ sanitize-threads: setup-test ## Run the workers' test with the thread sanitizer
 	$(Q)$(MAKE) --no-print-directory BUILD=build/sanitize-threads OPT='-O1 -fsanitize=thread' \
 	    TESTS_C=tests/hal/linux/test_workers_pthread.c CHECK_KERNELS= run-unit-tests
 
+.PHONY: freestanding
+freestanding: setup-test ## Compile warp_fixed for aarch64 without any library, and look for float and foreign symbols
+	$(Q)tests/warp_fixed/test_freestanding.sh $(BUILD)
+
 # --- the virtual board ------------------------------------------------------------------------------------------------
 
 build/board-kernel.made: tests/board/virtual/kernel.sh
@@ -265,7 +294,7 @@ test-board: setup-board ## Boot a virtual arm64 board and run the firmware in it
 	$(Q)tests/board/virtual/run.sh build/test-board build/qemu-virt $(VIRTUAL_TESTS)
 virtual-programs: programs $(VIRTUAL_PROGRAMS) build/board-kernel/initramfs.gz
 
-# --- benchmarks ------------------------------------------------------------------------------------------------------
+# --- benchmarks -------------------------------------------------------------------------------------------------------
 
 $(BUILD)/count_plugin.so: $(call objects,tests/bench/count_plugin.c)
 $(BUILD)/cache_plugin.so: $(call objects,tests/bench/cache_plugin.c tests/bench/cache_model.c)
@@ -293,12 +322,6 @@ $(BUILD)/bench_x86: $(call objects,$(wildcard tests/bench/*_x86.c tests/bench/x8
     $(BUILD)/libwarp.a
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lopencv_imgproc -lopencv_core -lstdc++ -lm -lpthread
-$(BUILD)/obj/%.cpp.o: %.cpp | $(SYSROOT:%=%.made)
-	@mkdir -p $(@D)
-	$(if $(V),,@echo "  CXX   $<")
-	$(Q)$(CXX) $(CPPFLAGS) $(addprefix -isystem $(SYSROOT)/usr/include/,opencv4 libcamera) -std=c++17 $(OPT) -g \
-	    -Wall -Wextra -Werror -Wpedantic -Wshadow -Wconversion -Wsign-conversion $(MACHINE) -c $< -o $@
-
 # Everything but the CSV goes to stderr. BASELINE=new makes these counts the ones that later runs are held to.
 ARM      := build/variants/aarch64-linux-gnu-gcc-O3
 KERNELS  := neon
@@ -323,7 +346,7 @@ bench-cache: setup-test ## Count the cache lines that an A72 fetches per pixel a
 	$(Q)$(MAKE) --no-print-directory BUILD=$(ARM) CC=aarch64-linux-gnu-gcc OPT=-O3 LDFLAGS=-static $(ARM)/bench_cache >&2
 	$(Q)tests/bench/bench_cache.sh $(BUILD)/cache_plugin.so $(ARM)/bench_cache build/bench/cache
 
-# --- fuzzing ---------------------------------------------------------------------------------------------------------
+# --- fuzzing ----------------------------------------------------------------------------------------------------------
 
 FUZZ_C  := $(wildcard tests/fuzz/fuzz_*.c)
 FUZZERS := $(FUZZ_C:%.c=$(BUILD)/%)
@@ -339,20 +362,7 @@ fuzz: setup-test ## Search for inputs that break the readers and the warp, SECON
 run-fuzz: $(FUZZERS)
 	$(Q)tests/fuzz/run.sh $(BUILD) $(SECONDS)
 
-# What a board needs is printed from its own tables by a program of this machine, whatever the board is built with.
-HOST_CC := gcc
-INFO     = build/info/$(BOARD)
-.PHONY: info
-info: $(INFO) ## Print what a board is made of, its wiring and its set-up: make BOARD=rpi4 info
-	$(Q)$(INFO)
-build/info/%: board/%/board.c board/%/info.c board/print_info.c board/board_info.c board/raspberry_pi.c \
-    board/board_info.h hal/hal_board.h hal/hal_gpio.h
-	$(Q)mkdir -p $(@D)
-	$(Q)$(HOST_CC) -I. -std=c11 -Wall -Wextra -Werror -o $@ $(filter %.c,$^)
-
-.PHONY: freestanding
-freestanding: setup-test ## Compile warp_fixed for aarch64 without any library, and look for float and foreign symbols
-	$(Q)tests/warp_fixed/test_freestanding.sh $(BUILD)
+# --- the rest ---------------------------------------------------------------------------------------------------------
 
 .PHONY: size
 size: setup-demo ## Print the sizes of code, static memory, and the worst stack of every function
@@ -365,6 +375,6 @@ clean: ## Delete build/
 
 .PHONY: help
 help: ## List the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-16s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 -include $(shell find $(BUILD)/obj -name '*.d' 2>/dev/null)
