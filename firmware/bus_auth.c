@@ -11,19 +11,19 @@ _Static_assert((int)AUTH_CLOCK_FIRST_US >= (int)BUS_AUTH_NONCE_US, "a session's 
 void bus_auth_init(bus_auth_t *auth, can_auth_t *key, uint8_t viewer, uint64_t seed)
 {
     memset(auth, 0, sizeof *auth);
-    auth->auth = key;
+    auth->key = key;
     auth->viewer = viewer;
     auth->seed = seed;
 }
 
 bool bus_auth_may_speak(const bus_auth_t *auth)
 {
-    return auth->auth == NULL || auth->has_session;
+    return auth->key == NULL || auth->has_session;
 }
 
 bool bus_auth_wants_session(const bus_auth_t *auth, int64_t now_us)
 {
-    return auth->auth != NULL && (!auth->has_session || now_us - auth->tracker_us > BUS_AUTH_SILENT_US);
+    return auth->key != NULL && (!auth->has_session || now_us - auth->tracker_us > BUS_AUTH_SILENT_US);
 }
 
 /* In the same session what was taken stays old. */
@@ -61,7 +61,7 @@ void bus_auth_begin_session(bus_auth_t *auth, uint64_t session, uint64_t bus_us,
 
 uint64_t bus_auth_give_nonce(bus_auth_t *auth, int64_t now_us)
 {
-    auth->nonce_given = can_auth_random(auth->auth, auth->seed, auth->nonces++, &auth->nonce);
+    auth->nonce_given = can_auth_random(auth->key, auth->seed, auth->nonces++, &auth->nonce);
     auth->nonce_us = now_us;
     return auth->nonce;
 }
@@ -71,16 +71,15 @@ int bus_auth_check_command(bus_auth_t *auth, uint32_t id, const uint8_t *command
     const can_auth_command_t plain = {id, command, length - CAN_AUTH_COMMAND_BYTES, auth->nonce};
     const bool given = auth->nonce_given && now_us - auth->nonce_us <= BUS_AUTH_NONCE_US;
     auth->nonce_given = false;
-    return given && plain.length > 0 && can_auth_check_command(auth->auth, &plain, command + plain.length)
-               ? plain.length
-               : 0;
+    return given && plain.length > 0 && can_auth_check_command(auth->key, &plain, command + plain.length) ? plain.length
+                                                                                                          : 0;
 }
 
 /* @return Is the code on its way? */
 static bool send_code(const bus_auth_t *auth, can_auth_fresh_t fresh, const can_auth_message_t *message, hal_can_t *can)
 {
     hal_can_frame_t tag;
-    return can_auth_sign(auth->auth, fresh, message, &tag) && hal_can_send(can, &tag) == HAL_OK;
+    return can_auth_sign(auth->key, fresh, message, &tag) && hal_can_send(can, &tag) == HAL_OK;
 }
 
 static uint64_t sign_time_us(const bus_auth_t *auth, const bus_time_t *time, int64_t now_us)
@@ -90,7 +89,7 @@ static uint64_t sign_time_us(const bus_auth_t *auth, const bus_time_t *time, int
 
 void bus_auth_sign(bus_auth_t *auth, bus_master_t *master, frame_clock_t *clock, hal_can_t *can, int64_t now_us)
 {
-    if (auth->auth == NULL || !auth->has_session)
+    if (auth->key == NULL || !auth->has_session)
         return;
     const uint64_t time_us = sign_time_us(auth, &master->time, now_us);
     if (master->paired) {
@@ -108,7 +107,7 @@ void bus_auth_sign(bus_auth_t *auth, bus_master_t *master, frame_clock_t *clock,
 bool bus_auth_sign_latency(bus_auth_t *auth, const bus_time_t *time, const hal_can_frame_t *latency, hal_can_t *can,
                            int64_t now_us)
 {
-    if (auth->auth == NULL || !auth->has_session)
+    if (auth->key == NULL || !auth->has_session)
         return true;
     const can_auth_message_t message = {latency, 1, latency->id + CAN_AUTH_ID_LATENCY - CAN_ID_LATENCY};
     can_auth_fresh_step(&auth->own_latency, sign_time_us(auth, time, now_us));

@@ -40,8 +40,8 @@ typedef struct {
 
 /** All zero bytes: the room has no key, every frame is believed, nothing is signed. */
 typedef struct {
-    can_auth_t *auth; /**< the room's key; NULL: it has none */
-    uint8_t viewer;   /**< whose poses matter */
+    can_auth_t *key; /**< the room's; NULL: it has none */
+    uint8_t viewer;  /**< whose poses matter */
     bool has_session;
     uint64_t session;
     auth_clock_t clock;

@@ -101,7 +101,7 @@ static int judge(bus_auth_t *auth, can_auth_stream_t *stream, bus_auth_message_t
     }
     const can_auth_window_t window = auth_clock_window(&auth->clock, tag->time_us);
     const can_auth_message_t signed_message = {message->frame, frames, tag->id};
-    const can_auth_result_t result = can_auth_check(auth->auth, stream, &window, &signed_message, tag);
+    const can_auth_result_t result = can_auth_check(auth->key, stream, &window, &signed_message, tag);
     count(faults, result);
     if (result != CAN_AUTH_OK)
         return 0;
@@ -116,7 +116,7 @@ static int take_fd(bus_auth_t *auth, const hal_can_frame_t *frame, hal_can_frame
     const can_auth_window_t window = auth_clock_window(&auth->clock, frame->time_us);
     hal_can_frame_t plain = *frame;
     plain.id = CAN_ID_POSE_FD + (uint32_t)auth->viewer;
-    const can_auth_result_t result = can_auth_check_fd(auth->auth, &auth->fd, &window, &plain);
+    const can_auth_result_t result = can_auth_check_fd(auth->key, &auth->fd, &window, &plain);
     count(faults, result);
     if (result != CAN_AUTH_OK)
         return 0;
@@ -208,7 +208,7 @@ static take_fn *taker_of(const bus_auth_t *auth, uint32_t id)
 int bus_auth_take(bus_auth_t *auth, const hal_can_frame_t *frame, hal_can_frame_t believed[CAN_AUTH_MAX_FRAMES],
                   can_faults_t *faults)
 {
-    take_fn *take = auth->auth == NULL || frame->own || frame->extended ? NULL : taker_of(auth, frame->id);
+    take_fn *take = auth->key == NULL || frame->own || frame->extended ? NULL : taker_of(auth, frame->id);
     if (take == NULL) {
         believed[0] = *frame;
         return 1;

@@ -28,7 +28,7 @@ static void hand_on(const bus_receivers_t *to, const hal_can_frame_t *frame)
 static void take(const bus_receivers_t *to, const hal_can_frame_t *frame)
 {
     hal_can_frame_t believed[CAN_AUTH_MAX_FRAMES];
-    if (to->auth == NULL || to->auth->auth == NULL) {
+    if (to->auth == NULL || to->auth->key == NULL) {
         hand_on(to, frame);
         return;
     }

@@ -126,9 +126,9 @@ static command_result_t read_request(projector_t *p, command_t *command, const u
                                      int64_t now_us)
 {
     const bool of_key = command->kind == COMMAND_NONCE || command->kind == COMMAND_SESSION;
-    if (p->auth.auth == NULL && of_key)
+    if (p->auth.key == NULL && of_key)
         return COMMAND_UNKNOWN;
-    if (p->auth.auth != NULL && command->kind != COMMAND_NONCE) {
+    if (p->auth.key != NULL && command->kind != COMMAND_NONCE) {
         length = bus_auth_check_command(&p->auth, p->commands.link.receive_id, request, length, now_us);
         if (length == 0) {
             p->can_faults.auth_commands++;
