@@ -30,7 +30,7 @@ void camera_exchange_end(camera_exchange_t *exchange)
 {
     for (int i = 0; i < CAMERA_BUFFERS_MAX; i++)
         unmap(&exchange->buffer[i]);
-    for (int i = 0; i < CAMERA_LENT_MAX; i++)
+    for (int i = 0; i < HAL_CAMERA_LENT; i++)
         unmap(&exchange->kept[i]);
     pthread_mutex_destroy(&exchange->mutex);
 }
@@ -48,7 +48,7 @@ static int count_lent(const camera_exchange_t *exchange)
     int lent = 0;
     for (int i = 0; i < CAMERA_BUFFERS_MAX; i++)
         lent += exchange->buffer[i].state == CAMERA_BUFFER_LENT;
-    for (int i = 0; i < CAMERA_LENT_MAX; i++)
+    for (int i = 0; i < HAL_CAMERA_LENT; i++)
         lent += exchange->kept[i].state == CAMERA_BUFFER_LENT;
     return lent;
 }
@@ -59,7 +59,7 @@ hal_status_t camera_exchange_take(camera_exchange_t *exchange, hal_camera_frame_
     pthread_mutex_lock(&exchange->mutex);
     if (exchange->here) {
         const int newest = find(exchange->buffer, CAMERA_BUFFERS_MAX, CAMERA_BUFFER_READY);
-        if (count_lent(exchange) >= CAMERA_LENT_MAX) {
+        if (count_lent(exchange) >= HAL_CAMERA_LENT) {
             status = HAL_FULL;
         } else if (newest == CAMERA_NO_BUFFER) {
             status = HAL_EMPTY;
@@ -88,7 +88,7 @@ void camera_exchange_release(camera_exchange_t *exchange, const hal_camera_frame
 {
     pthread_mutex_lock(&exchange->mutex);
     const bool was_lent =
-        give_back(exchange->buffer, CAMERA_BUFFERS_MAX, frame) || give_back(exchange->kept, CAMERA_LENT_MAX, frame);
+        give_back(exchange->buffer, CAMERA_BUFFERS_MAX, frame) || give_back(exchange->kept, HAL_CAMERA_LENT, frame);
     pthread_mutex_unlock(&exchange->mutex);
     assert(was_lent);
     (void)was_lent;
@@ -138,7 +138,7 @@ int camera_exchange_put(camera_exchange_t *exchange, int buffer, const hal_camer
 /* Unmap the copies that were given back; not under the mutex, as it can take milliseconds: RETURNED is ours alone. */
 static void drop_kept(camera_exchange_t *exchange)
 {
-    for (int i = 0; i < CAMERA_LENT_MAX; i++) {
+    for (int i = 0; i < HAL_CAMERA_LENT; i++) {
         pthread_mutex_lock(&exchange->mutex);
         camera_buffer_t returned = exchange->kept[i];
         if (returned.state == CAMERA_BUFFER_RETURNED)
@@ -182,12 +182,12 @@ void camera_exchange_withdraw(camera_exchange_t *exchange)
     drop_kept(exchange);
     /* None is taken any more, and what had come back is dropped: there is a place for each that is lent. */
     camera_buffer_t gone[CAMERA_BUFFERS_MAX];
-    camera_map_t still_lent[CAMERA_LENT_MAX][PICTURE_MAX_PLANES] = {{{0}}};
+    camera_map_t still_lent[HAL_CAMERA_LENT][PICTURE_MAX_PLANES] = {{{0}}};
     pthread_mutex_lock(&exchange->mutex);
     memcpy(gone, exchange->buffer, sizeof gone);
     for (int i = 0; i < CAMERA_BUFFERS_MAX; i++) {
         if (gone[i].state == CAMERA_BUFFER_LENT) {
-            const int place = find(exchange->kept, CAMERA_LENT_MAX, CAMERA_BUFFER_AWAY);
+            const int place = find(exchange->kept, HAL_CAMERA_LENT, CAMERA_BUFFER_AWAY);
             assert(place != CAMERA_NO_BUFFER);
             exchange->kept[place] = gone[i];
             memcpy(still_lent[place], gone[i].map, sizeof gone[i].map);
@@ -197,7 +197,7 @@ void camera_exchange_withdraw(camera_exchange_t *exchange)
     }
     pthread_mutex_unlock(&exchange->mutex);
     /* Of one that is given back at this moment a copy does no harm: only this thread unmaps. */
-    for (int i = 0; i < CAMERA_LENT_MAX; i++)
+    for (int i = 0; i < HAL_CAMERA_LENT; i++)
         for (int plane = 0; plane < PICTURE_MAX_PLANES; plane++)
             replace_by_copy(&still_lent[i][plane]);
     for (int i = 0; i < CAMERA_BUFFERS_MAX; i++)

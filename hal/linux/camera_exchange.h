@@ -11,10 +11,9 @@
 #include "hal/hal_camera.h"
 
 enum {
-    CAMERA_LENT_MAX = 2, /**< pictures that the loop may hold: hal_camera_take() */
-    CAMERA_BUFFERS = 6,  /**< to ask a driver for: those, the newest, and three to be filled */
-    CAMERA_BUFFERS_MIN = 5,
-    CAMERA_BUFFERS_MAX = 8,
+    CAMERA_BUFFERS = HAL_CAMERA_LENT + 4, /**< to ask a driver for: those lent, the newest, and three to be filled */
+    CAMERA_BUFFERS_MIN = HAL_CAMERA_LENT + 2,
+    CAMERA_BUFFERS_MAX = HAL_CAMERA_LENT + 8,
     CAMERA_NO_BUFFER = -1
 };
 
@@ -41,7 +40,7 @@ typedef struct {
 typedef struct {
     pthread_mutex_t mutex; /**< of all below; lends the holder the priority of who waits */
     camera_buffer_t buffer[CAMERA_BUFFERS_MAX];
-    camera_buffer_t kept[CAMERA_LENT_MAX]; /**< LENT, of a device that is gone, or RETURNED */
+    camera_buffer_t kept[HAL_CAMERA_LENT]; /**< LENT, of a device that is gone, or RETURNED */
     bool here;                             /**< the source delivers */
     uint32_t sequence, sequence_first;     /**< the last one given out; what is added to the source's own */
     bool sequence_begun;                   /**< the source's own is under way since it came */

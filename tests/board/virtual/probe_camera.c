@@ -2,7 +2,8 @@
 // Takes pictures through hal_camera.h as the firmware does, and says what came: for tests on a board.
 //
 // usage: probe_camera NAME WIDTH HEIGHT RATE PICTURES SECONDS [hold]
-//   until PICTURES were taken, or SECONDS are over; it holds each picture until the next one, with hold: two.
+//   until PICTURES were taken, or SECONDS are over; it holds each picture until the next one, with hold: as many
+//   as it may.
 // Lines on stdout:
 //   picture SEQUENCE time US age US FORMAT MATRIX stride BYTES pixel HEX    HEX: of the middle, and of its chroma
 //   status io | status ok                                                   when it changes
@@ -20,10 +21,10 @@
 #include "hal/linux/camera_clock.h"
 #include "hal/linux/camera_name.h"
 
-enum { SETTLED = 20, HELD_MOST = 2 };
+enum { SETTLED = 20 };
 
 typedef struct {
-    hal_camera_frame_t held[HELD_MOST];
+    hal_camera_frame_t held[HAL_CAMERA_LENT];
     int held_count, hold;
     long pictures, gaps, full;
     uint32_t sequence;
@@ -82,6 +83,13 @@ static void print_picture(const hal_camera_frame_t *frame)
     printf("\n");
 }
 
+static void release_oldest(probe_t *probe, hal_camera_t *camera)
+{
+    hal_camera_release(camera, &probe->held[0]);
+    probe->held_count--;
+    memmove(&probe->held[0], &probe->held[1], (size_t)probe->held_count * sizeof probe->held[0]);
+}
+
 static void keep(probe_t *probe, hal_camera_t *camera, const hal_camera_frame_t *frame)
 {
     if (probe->pictures != 0 && frame->sequence != probe->sequence + 1)
@@ -89,11 +97,8 @@ static void keep(probe_t *probe, hal_camera_t *camera, const hal_camera_frame_t 
     probe->sequence = frame->sequence;
     probe->pictures++;
     print_picture(frame);
-    if (probe->held_count == probe->hold) {
-        hal_camera_release(camera, &probe->held[0]);
-        probe->held[0] = probe->held[1];
-        probe->held_count--;
-    }
+    if (probe->held_count == probe->hold)
+        release_oldest(probe, camera);
     probe->held[probe->held_count++] = *frame;
     if (probe->pictures == SETTLED) {
         probe->rss_kb = rss_kb();
@@ -107,9 +112,7 @@ static void step(probe_t *probe, hal_camera_t *camera)
     hal_status_t status = hal_camera_take(camera, &frame);
     if (status == HAL_FULL) {
         probe->full++;
-        hal_camera_release(camera, &probe->held[0]);
-        probe->held[0] = probe->held[1];
-        probe->held_count--;
+        release_oldest(probe, camera);
         status = hal_camera_take(camera, &frame);
     }
     if (status == HAL_EMPTY)
@@ -132,7 +135,7 @@ int main(int argc, char **argv)
                                         .rate_seconds = 1};
     const long wanted = atol(argv[5]);
     const int64_t until_us = camera_now_us() + 1000000 * (int64_t)atol(argv[6]);
-    probe_t probe = {.hold = argc > 7 ? HELD_MOST : 1, .status = HAL_OK};
+    probe_t probe = {.hold = argc > 7 ? HAL_CAMERA_LENT : 1, .status = HAL_OK};
     setvbuf(stdout, NULL, _IOLBF, 0);
     char error[HAL_BOARD_ERROR_LENGTH];
     hal_camera_t *camera;
