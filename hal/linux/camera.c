@@ -3,7 +3,7 @@
 #include "hal/linux/camera.h"
 
 #include "hal/linux/camera_keeper.h"
-#include "hal/linux/camera_libcamera.h"
+#include "hal/linux/camera_libcamera_source.h"
 #include "hal/linux/camera_v4l2.h"
 
 static const camera_source_t *const sources[CAMERA_SOURCES] = {

@@ -15,7 +15,7 @@ typedef struct {
      * nv12).
      *
      * v4l2:WHICH       camera_v4l2.h: HDMI receivers, USB capture devices and cameras;
-     * libcamera:WHICH  camera_libcamera.h: camera sensors, USB cameras.
+     * libcamera:WHICH  camera_libcamera_source.h: camera sensors, USB cameras.
      */
     const char *name;
     int32_t width, height;             /**< of its pictures, as the room file states */
