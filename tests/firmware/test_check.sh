@@ -7,7 +7,19 @@ wallwarp=$1/wallwarp
 room=sim/demo/room.yaml
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+passed=0
 failed=0
+
+# ok STATUS WHAT
+ok() {
+    if [ "$1" = 0 ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED: $2"
+        sed 's/^/    /' "$folder/out"
+    fi
+}
 
 # expect STATUS TEXT ARGUMENTS...: the program ends with the status, and prints a line that begins with the text
 expect() {
@@ -16,11 +28,8 @@ expect() {
     shift 2
     "$wallwarp" "$@" >"$folder/out" 2>&1
     found=$?
-    if [ "$found" != "$status" ] || ! awk -v text="$text" 'index($0, text) == 1 {n++} END {exit n == 0}' "$folder/out"; then
-        echo "FAILED: wallwarp $*: status $found, expected $status and a line that begins with: $text"
-        sed 's/^/    /' "$folder/out"
-        failed=$((failed + 1))
-    fi
+    [ "$found" = "$status" ] && awk -v text="$text" 'index($0, text) == 1 {n++} END {exit n == 0}' "$folder/out"
+    ok $? "wallwarp $*: status $found, expected $status and a line that begins with: $text"
 }
 
 expect 0 'found    room: none was named' --check
@@ -35,12 +44,15 @@ expect 1 'missing  camera: nowhere.png' --check --camera nowhere.png
 expect 1 'missing  camera: tests/images/studio_480x270.png' --check $room --node 1 --camera tests/images/studio_480x270.png
 expect 1 'missing  display: Makefile is no folder' --check --display Makefile
 expect 0 "found    display: $folder/new" --check --display "$folder/new"
-[ -e "$folder/new" ] && echo "FAILED: --check made a folder" && failed=$((failed + 1))
+[ ! -e "$folder/new" ]
+ok $? "--check made a folder"
 expect 2 'wallwarp: expected ROOM and --node N' --check $room
 expect 2 'wallwarp: expected ROOM and --node N' --check --node 1
 expect 2 'wallwarp: expected ROOM and --node N'
-"$wallwarp" --off >"$folder/out" 2>&1 || { echo "FAILED: --off"; failed=$((failed + 1)); }
-[ -s "$folder/out" ] && echo "FAILED: --off said something" && failed=$((failed + 1))
+"$wallwarp" --off >"$folder/out" 2>&1
+ok $? "--off"
+[ ! -s "$folder/out" ]
+ok $? "--off said something"
 
-[ $failed = 0 ] && echo "test_check: all passed"
-exit $((failed > 0))
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
