@@ -16,6 +16,9 @@
 #ifdef __clang__
 #define SIMDE_X86_MMX_NO_NATIVE /* what clang makes with MMX leaves the x87 unable to do long doubles */
 #endif
+#ifdef __SSE2__
+#include <immintrin.h> /* before SIMDe, whose 0.8.2 makes macros of names in it */
+#endif
 #include <simde/arm/neon.h>
 #ifdef __SSE2__
 #include "warp_fixed/neon_x86.h"
