@@ -40,7 +40,8 @@ static int write_png(int32_t width, int32_t height, const char *raw, const char 
     const bool written = right && png_file_write(png, &image, error);
     free(pixels);
     if (!right)
-        return fail("the raw file has another size");
+        (void)file_error(error, raw, "%lld bytes, expected the %d x %d x %d of a picture", (long long)size, width,
+                         height, BYTES);
     return written ? 0 : fail(error);
 }
 
@@ -68,8 +69,10 @@ static int differ(const char *ppm, const char *png)
     const int64_t differences = same_size ? count_differences(file, &image) : -1;
     free(image.data);
     (void)fclose(file);
-    if (!same_size)
-        return fail("the pictures have different sizes");
+    if (!same_size) {
+        (void)file_error(error, ppm, "expected a P6 of %dx%d, the size of %s", image.width, image.height, png);
+        return fail(error);
+    }
     printf("%lld bytes differ\n", (long long)differences);
     return differences == 0 ? 0 : 1;
 }
