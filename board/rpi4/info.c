@@ -18,6 +18,6 @@ const board_info_t board_info = {
             {"/boot/firmware/cmdline.txt, at the end of its one line",
              "isolcpus=domain,managed_irq,1-3 rcu_nocbs=1-3 irqaffinity=0 consoleblank=0\n"},
             {"a shell, once", "sudo apt install can-utils v4l-utils gpiod libcyaml1 libmbedcrypto7 libmnl0 libgpiod2 "
-                              "libdrm2 libcamera0.0.3\n"},
+                              "libdrm2 libcamera0.0.3 liblo7 libjansson4 libcbor0.8\n"},
         },
 };
