@@ -5,6 +5,7 @@
 #include <drm_fourcc.h>
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct {
@@ -17,6 +18,13 @@ static const format_t formats[] = {
     {DRM_FORMAT_XRGB8888, PICTURE_XRGB8888}, {DRM_FORMAT_RGB888, PICTURE_RGB888}, {DRM_FORMAT_BGR888, PICTURE_BGR888},
     {DRM_FORMAT_YUYV, PICTURE_YUYV},         {DRM_FORMAT_UYVY, PICTURE_UYVY},     {DRM_FORMAT_NV12, PICTURE_NV12},
 };
+
+bool camera_libcamera_start(libcamera_session_t **session, char error[HAL_BOARD_ERROR_LENGTH])
+{
+    (void)setenv("LIBCAMERA_LOG_LEVELS", "*:ERROR", 0);
+    const int failure = libcamera_open(session);
+    return failure >= 0 || camera_fail(error, "libcamera does not start: %s; see `cam -l`", strerror(-failure));
+}
 
 int camera_libcamera_find(const libcamera_session_t *session, const char *which, char error[HAL_BOARD_ERROR_LENGTH])
 {

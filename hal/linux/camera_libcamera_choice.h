@@ -7,6 +7,13 @@
 #include "hal/linux/camera_source.h"
 
 /**
+ * libcamera_open(). What the library says below errors is kept off stderr, unless LIBCAMERA_LOG_LEVELS is set.
+ *
+ * @return false, with the reason in error.
+ */
+bool camera_libcamera_start(libcamera_session_t **session, char error[HAL_BOARD_ERROR_LENGTH]);
+
+/**
  * Find a camera.
  *
  * @param which  Its number, its whole id, or the model of its sensor.

@@ -185,7 +185,6 @@ static void *create(const camera_wanted_t *wanted)
         return NULL;
     device->wanted = *wanted;
     pthread_mutex_init(&device->events.mutex, NULL);
-    (void)setenv("LIBCAMERA_LOG_LEVELS", "*:ERROR", 0);
     return device;
 }
 
@@ -212,9 +211,8 @@ static void close_device(void *source)
 static bool open_device(void *source, char error[HAL_BOARD_ERROR_LENGTH])
 {
     device_t *device = source;
-    const int failure = libcamera_open(&device->session);
-    if (failure < 0)
-        return camera_fail(error, "libcamera does not start: %s; see `cam -l`", strerror(-failure));
+    if (!camera_libcamera_start(&device->session, error))
+        return false;
     if (choose(device, error) && start(device, error))
         return true;
     close_device(device);

@@ -15,13 +15,14 @@
  * library has threads of its own: two named as ours, which it makes when it is started, and those of its tracer
  * (PROGRAM-ust). It uses the heap for each request.
  *
+ * Some pipelines have four buffers and no more (USB's, vimc's): while the loop holds three of them, as it does in a
+ * room that waits for its slowest board, pictures are lost. USB cameras do better as v4l2:DEVICE.
+ *
  * Times are of the sensor's first line (SensorTimestamp), on CLOCK_MONOTONIC (camera_stamp_us()).
  *
  * After a loss the whole library is started anew with each attempt to open. A USB camera comes back when it is plugged
  * in again; that needs udev, whose messages the library waits for. A sensor that fails while it runs stays lost until
  * the program is started again, which is said once: libcamera (0.0.3) would end the program when it is closed.
- *
- * Messages of the library below errors are kept off stderr, unless LIBCAMERA_LOG_LEVELS is set.
  */
 extern const camera_source_t camera_libcamera;
 

@@ -7,6 +7,7 @@
 #include <stddef.h>
 
 #include "hal/hal_board.h"
+#include "hal/linux/camera_name.h"
 
 enum { CHECK_LINE_LENGTH = 512, CHECK_WORD_LENGTH = 96 };
 
@@ -58,6 +59,9 @@ void check_can(check_t *check);
 
 /** The video source: driver, formats, sizes, signal and EDID of an HDMI receiver. */
 void check_camera(check_t *check);
+
+/** check_camera() of a camera of libcamera's: what it lists, and whether the wanted one has the wanted pictures. */
+void check_libcamera(check_t *check, const camera_name_t *name);
 
 /** The projector: connectors, their modes, who has the display. */
 void check_display(check_t *check);

@@ -13,7 +13,7 @@
 #include "hal/linux/camera_v4l2_receiver.h"
 #include "hal/linux/check.h"
 
-enum { MOST_ENTRIES = 64, MEDIA_NODES = 64 };
+enum { MOST_ENTRIES = 64 };
 
 static bool is_taken(uint32_t fourcc)
 {
@@ -148,29 +148,6 @@ static void check_v4l2(check_t *check, const char *which)
     close(file);
 }
 
-/* libcamera itself would take the cameras for a moment: only what it finds them by is looked at. */
-static void check_libcamera(check_t *check, const char *which)
-{
-    char path[CHECK_WORD_LENGTH], name[CHECK_WORD_LENGTH], model[CHECK_WORD_LENGTH];
-    int media = 0, refused = 0;
-    for (int n = 0; n < MEDIA_NODES; n++) {
-        (void)snprintf(path, sizeof path, "%s/dev/media%d", check->root, n);
-        if (access(path, F_OK) != 0)
-            continue;
-        media++;
-        refused += access(path, R_OK | W_OK) != 0;
-        (void)snprintf(name, sizeof name, "/sys/bus/media/devices/media%d/model", n);
-        if (check_read(check, name, model, sizeof model))
-            check_found(check, "camera: /dev/media%d, %s", n, model);
-    }
-    if (media == 0)
-        check_miss(check, "plug it in, or load its overlay as the page of the board has it; cam --list",
-                   "camera: libcamera has no media device to find \"%s\" in", which);
-    else if (refused > 0)
-        check_miss(check, "sudo usermod -aG video $USER, then log in anew",
-                   "camera: this user may not open %d of %d media devices", refused, media);
-}
-
 void check_camera(check_t *check)
 {
     camera_name_t name;
@@ -180,5 +157,5 @@ void check_camera(check_t *check)
     else if (name.kind == CAMERA_V4L2)
         check_v4l2(check, name.which);
     else
-        check_libcamera(check, name.which);
+        check_libcamera(check, &name);
 }

@@ -98,6 +98,17 @@ even() {
     ok "memory of $1 grew" $?
 }
 
+# check_says ROOM TEXT...: wallwarp --check does, of the first camera of libcamera's.
+check_says() {
+    local out text
+    out=$(vm_run "/tree/$build/wallwarp --check $1 --node 1 --camera libcamera:0")
+    shift
+    for text in "$@"; do
+        [[ $out == *"$text"* ]]
+        ok "--check: expected \"$text\", found \"$out\"" $?
+    done
+}
+
 test_many_pictures() {
     start many v4l2:$single 320 180 60 500 60 hold
     awaits many 'end pictures 500'
@@ -205,11 +216,16 @@ test_libcamera() {
     refused 'of 636x480 at nearest, expected 640x480 as the room file states' libcamera:0 640 480
     refused 'is not among the 1 cameras here' libcamera:1 48 48
     refused 'gives none of the formats that are wanted' nv12:libcamera:0 48 48
+    check_says /tree/tests/board/virtual/picture_room.yaml 'found    camera: libcamera:0, Sensor B, "platform/vimc.0 Sensor B"' \
+        'missing  camera: libcamera:0 gives bgr888 of 318x180 at nearest, expected 320x180'
+    sed 's/320, height: 180/318, height: 180/' tests/board/virtual/picture_room.yaml >"$VM/share/room.yaml"
+    check_says /share/room.yaml 'found    camera: libcamera:0 gives rgb888 of 318x180'
     : >"$VM/share/cam"
     vm_run 'cam -c 1 -C1000000 -s width=48,height=48 >/share/cam 2>&1 &'
     awaits cam fps
     # libcamera does not list a camera whose links another program holds.
     refused 'is not among the 0 cameras here; plug it in, end other programs' 'libcamera:platform/vimc.0 Sensor B' 48 48
+    check_says /share/room.yaml 'is held by cam (process '
     vm_run 'kill -KILL $(pidof cam)'
 }
 
