@@ -1,4 +1,4 @@
-#!/bin/sh
+#!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # A room with a key believes and obeys who has the same one, and nobody else.
 # Usage, from the tree's root: tests/sim/pose/test_room_key.sh BUILD_FOLDER
@@ -40,6 +40,45 @@ start_sender() {
 stop_sender() {
     kill -INT "$sender"
     wait "$sender"
+}
+
+# A tracker's packets at about 50 Hz, until it is killed. usage: packets PORT
+packets() {
+    n=0
+    while :; do
+        printf 'fr %d\r\n6d 1 [0 1.000][300 1600 %d 0 0 0][1 0 0 0 1 0 0 0 1]\r\n' $n $((n % 100)) >"$scratch/packet"
+        cat "$scratch/packet" >"/dev/udp/127.0.0.1/$1"
+        n=$((n + 1))
+        sleep 0.02
+    done
+}
+
+# start_bridge OPTION ...: a tracker's packets and the bridge that sends their poses, until stop_bridge.
+start_bridge() {
+    "$build/wallwarp-pose" bridge dtrack --bus "$bus" --transform sim/trackers/examples/dtrack.yaml \
+        --listen 127.0.0.1:0 "$@" >/dev/null 2>"$scratch/bridge" &
+    sender=$!
+    tries=0
+    until grep -q ' on 127.0.0.1:' "$scratch/bridge" || [ $((tries += 1)) -gt 200 ]; do sleep 0.05; done
+    packets "$(sed -n 's/.* on 127.0.0.1:\([0-9]*\)$/\1/p' "$scratch/bridge")" 2>/dev/null &
+    packets=$!
+    started="$started $sender $packets"
+}
+
+stop_bridge() {
+    stop_sender
+    kill "$packets"
+}
+
+test_bridge() {
+    start_room bridged --key "$key"
+    start_bridge --key "$wrong"
+    boards_are waiting '0x18[01]' "a bridge with another key is not believed"
+    stop_bridge
+    start_bridge --key "$key"
+    boards_are running '0x0[048C][01]' "a bridge with the key is"
+    stop_bridge
+    end_room
 }
 
 test_poses() {
@@ -123,6 +162,7 @@ test_poses
 test_commands
 stop_sender
 end_room
+test_bridge
 test_rooms_without
 test_firmware
 finish
