@@ -7,8 +7,8 @@ touch /share/up
 while read -r job; do
     folder=/share/jobs/$job
     {
-        sh "$folder/command" >"$folder/output" 2>&1 </dev/null
-        echo $? >"$folder/status.part"
-        mv "$folder/status.part" "$folder/status"
+        # shellcheck source=/dev/null # the host's
+        (. "$folder/command") >"$folder/output" 2>&1 </dev/null
+        echo $? >"$folder/status"
     } &
 done <"$(echo /dev/vport*p1)"

@@ -97,8 +97,7 @@ test_cable() {
     vm_run "echo detect >\$(echo $status)"
 }
 
-trap vm_stop EXIT
-vm_start build/vm-display -device bochs-display,id=bochs,romfile= || exit 1
+vm_use || exit 1
 vm_run 'echo 0 >/sys/class/graphics/fbcon/cursor_blink; modprobe bochs; modprobe vkms; udevadm settle; ls /dev/dri/card0 /dev/dri/card1 /dev/dri/card2' >/dev/null
 ok "there are three displays" $?
 for card in card0 card1 card2; do
@@ -107,4 +106,6 @@ for card in card0 card1 card2; do
     test_cable $card
 done
 test_refusals
+vm_run 'modprobe -r vkms && modprobe -r bochs && [ "$(ls -d /dev/dri/card*)" = /dev/dri/card0 ]'
+ok "the others can be taken away again" $?
 ok_end

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# The virtual board itself: it has the devices that other tests use, it can be seen and heard from outside, and ends.
+# The virtual board itself: it has the devices that other tests use, it can be seen and heard from outside.
 # shellcheck disable=SC2016 # the board expands what is in the commands
 set -u
 . tests/board/virtual/vm.sh
@@ -80,25 +80,9 @@ test_jobs() {
     ok "a process that lost its parent is buried" $?
 }
 
-# On a board of its own, which it ends.
-test_end() {
-    local others=$VM
-    vm_start "$VM-end"
-    ok "a second board" $?
-    vm_run 'busybox watchdog -T 2 -t 30 /dev/watchdog0; sleep 20'
-    [ $? = 125 ] && vm_has_event WATCHDOG
-    ok "an unfed watchdog ends the board" $?
-    vm_run true
-    [ $? = 125 ]
-    ok "a command for a board that is gone" $?
-    vm_stop
-    VM=$others
-}
-
 vm_use || exit 1
 test_root
 test_devices
 test_outside
 test_jobs
-test_end
 ok_end

@@ -74,7 +74,7 @@ vm_qemu() {
         -device virtio-9p-pci,fsdev=share,mount_tag=share \
         -object can-bus,id=wire0 -device kvaser_pci,canbus=wire0 -device kvaser_pci,canbus=wire0 \
         -object can-bus,id=wire1 -device ctucan_pci,canbus0=wire1,canbus1=wire1 \
-        -device virtio-gpu-pci,id=gpu -device i6300esb -action watchdog=reset "$@"
+        -device virtio-gpu-pci,id=gpu -device bochs-display,id=bochs,romfile= -device i6300esb -action watchdog=reset "$@"
 }
 
 vm_alive() {
@@ -93,7 +93,7 @@ vm_run() {
     # Opened for both directions, so that nothing hangs when the board ends meanwhile.
     echo "${job##*/}" 1<>"$VM/jobs.in"
     for ((i = 0; i < seconds * 20; i++)); do
-        if [ -e "$job/status" ]; then
+        if [ -s "$job/status" ]; then
             cat "$job/output"
             return "$(cat "$job/status")"
         fi
