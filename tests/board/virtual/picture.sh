@@ -1,0 +1,75 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
+# The firmware on a virtual board of its own, and its display beside the simulator's picture, for tests to source after
+# vm.sh. They set build and host, the folders of programs.
+#
+# Time on this board is told by its instructions, so that it is as fast as a real one however slow this machine is, and
+# the firmware has no reason for a cheaper method. What sleeps costs nothing.
+room=tests/board/virtual/picture_room.yaml
+
+# picture_board FOLDER WIDTHxHEIGHT: a board with that display, and both wires up: can0 and can1 classic, can2 and can3
+# with CAN FD.
+picture_board() {
+    VM_ACCEL=tcg,thread=single vm_start "$1" -icount shift=0,sleep=off \
+        -append "console=ttyAMA0 panic=-1 quiet video=Virtual-1:$2" || return
+    vm_run 'for can in can0 can1; do ip link set $can up txqueuelen 64 type can bitrate 500000 restart-ms 100; done
+        for can in can2 can3; do
+            ip link set $can up txqueuelen 64 type can bitrate 500000 dbitrate 2000000 fd on restart-ms 100
+        done'
+}
+
+# set_pattern NUMBER: what vivid shows, standing still.
+set_pattern() {
+    vm_run "v4l2-ctl -d /dev/video0 -c test_pattern=$1,osd_text_mode=2,show_border=1,show_square=1"
+}
+
+# record_frame PATTERN: the camera's picture of it into $VM/PATTERN.png. False when it does not stand still.
+record_frame() {
+    set_pattern "$1"
+    vm_run "for i in 1 2; do v4l2-ctl -d /dev/video0 --set-fmt-video=width=320,height=180,pixelformat=XR24 \
+        --stream-mmap --stream-count=1 --stream-to=/share/$1.\$i >/dev/null 2>&1; done"
+    cmp "$VM/share/$1.1" "$VM/share/$1.2" &&
+        "$host/tests/board/picture_tool" png 320 180 "$VM/share/$1.1" "$VM/$1.png"
+}
+
+# start_firmware SED_SCRIPT OPTION...: with the room as the script changes it.
+start_firmware() {
+    sed "$1" $room >"$VM/share/room.yaml"
+    shift
+    vm_run "/tree/$build/wallwarp /share/room.yaml --node 1 $* >/share/firmware 2>&1 & echo \$! >/share/pid"
+}
+
+# end PID_FILE: a program that was started.
+end() {
+    vm_run "kill \"\$(cat /share/$1)\"; while [ -e \"/proc/\$(cat /share/$1)\" ]; do sleep 0.1; done"
+}
+
+# want PATTERN POSE: the simulator's picture of that frame and pose into $VM/wanted.png.
+want() {
+    "$host/wallwarp-sim" warp "$VM/share/room.yaml" --board front --pose "$("$host/tests/board/picture_tool" pose "$2")" \
+        --in "$VM/$1.png" --out "$VM/wanted.png"
+}
+
+# monitor BUS: what the firmware and the sender say on it.
+monitor() {
+    vm_run "/tree/$build/wallwarp-pose monitor --bus $1 --seconds 1.2"
+}
+
+# shows BUS METHOD: soon the display shows what is wanted, and again after the firmware has said that this is its method,
+# and not a cheaper one. Says into $differences how much differs.
+shows() {
+    local i before=
+    for ((i = 0; i < 20; i++)); do
+        vm_screenshot "$VM/seen.ppm"
+        if ! differences=$("$host/tests/board/picture_tool" differ "$VM/seen.ppm" "$VM/wanted.png"); then
+            before=
+        elif [ -n "$before" ]; then
+            return 0
+        else
+            before=same
+        fi
+        monitor "$1" | grep -q "^ *1  running .* $2, step 0\$" || before=
+    done
+    monitor "$1"
+    return 1
+}
