@@ -76,11 +76,13 @@ $(BUILD)/obj/%.c.o: %.c | $(SYSROOT:%=%.made)
 	$(if $(V),,@echo "  CC    $<")
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) $(MACHINE) -c $< -o $@
 
+# By gcc, whoever compiles C.
 $(BUILD)/obj/%.cpp.o: %.cpp | $(SYSROOT:%=%.made)
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  CXX   $<")
 	$(Q)$(CXX) $(CPPFLAGS) $(addprefix -isystem $(SYSROOT)/usr/include/,opencv4 libcamera) -std=c++17 $(OPT) -g \
-	    -Wall -Wextra -Werror -Wpedantic -Wshadow -Wconversion -Wsign-conversion $(MACHINE) -c $< -o $@
+	    -Wall -Wextra -Werror -Wpedantic -Wshadow -Wconversion -Wsign-conversion \
+	    $(filter-out --target=%,$(MACHINE)) -c $< -o $@
 
 # NEON's lanes wrap; SIMDe makes them of signed integers in C.
 # gcc 12: SIMDe's loops end it with an internal error ("in compute_live_loop_exits") unless partial redundancies stay,
