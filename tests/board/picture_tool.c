@@ -14,7 +14,7 @@
 static const char USAGE[] =
     "usage: picture_tool png WIDTH HEIGHT RAW PNG   raw XRGB8888 as a PNG\n"
     "       picture_tool differ PPM PNG            says how many bytes of RGB differ; 0 if none\n"
-    "       picture_tool pose POSE                 as `send still` and classic frames carry it\n";
+    "       picture_tool pose POSE fd|classic      as `send still` and such frames carry it\n";
 
 enum { BYTES = IMAGE_XRGB8888 };
 
@@ -77,12 +77,19 @@ static int differ(const char *ppm, const char *png)
     return differences == 0 ? 0 : 1;
 }
 
-static int carry_pose(const char *text)
+static bool carried(can_pose_t *got, const can_pose_t *sent, bool fd)
+{
+    hal_can_frame_t part[CAN_POSE_PARTS];
+    if (fd)
+        return can_pose_fd_encode(part, sent) && can_pose_fd_decode(got, part, 0) == CAN_CHECK_OK;
+    return can_pose_set_encode(part, sent) && can_pose_set_decode(got, part, 0) == CAN_CHECK_OK;
+}
+
+static int carry_pose(const char *text, bool fd)
 {
     char error[POSE_TEXT_MESSAGE_LENGTH];
     motion_t still = {.kind = MOTION_STILL, .rate_hz = 1.0, .duration_s = 1.0};
     pose_list_t list;
-    hal_can_frame_t part[CAN_POSE_PARTS];
     can_pose_t got;
     int32_t unit[4];
     if (!pose_from_text(text, &still.start, error))
@@ -91,9 +98,8 @@ static int carry_pose(const char *text)
         return fail("out of memory");
     const can_pose_t sent = {.pose = list.entry[0].pose, .quality = CAN_POSE_TRACKED};
     pose_list_free(&list);
-    if (!can_pose_set_encode(part, &sent) || can_pose_set_decode(&got, part, 0) != CAN_CHECK_OK ||
-        !quaternion_normalise(unit, got.pose.quaternion_q30))
-        return fail("the pose does not fit classic frames");
+    if (!carried(&got, &sent, fd) || !quaternion_normalise(unit, got.pose.quaternion_q30))
+        return fail("the pose does not fit its frames");
     for (int i = 0; i < 3; i++)
         printf("%.6f ", (double)got.pose.eye_nm[i] / 1e6);
     for (int i = 0; i < 4; i++)
@@ -103,12 +109,13 @@ static int carry_pose(const char *text)
 
 int main(int argc, char **argv)
 {
+    const bool fd = argc == 4 && strcmp(argv[3], "fd") == 0;
     if (argc == 6 && strcmp(argv[1], "png") == 0)
         return write_png(atoi(argv[2]), atoi(argv[3]), argv[4], argv[5]);
     if (argc == 4 && strcmp(argv[1], "differ") == 0)
         return differ(argv[2], argv[3]);
-    if (argc == 3 && strcmp(argv[1], "pose") == 0)
-        return carry_pose(argv[2]);
+    if (argc == 4 && strcmp(argv[1], "pose") == 0 && (fd || strcmp(argv[3], "classic") == 0))
+        return carry_pose(argv[2], fd);
     fputs(USAGE, stderr);
     return 2;
 }

@@ -1,4 +1,5 @@
 # shellcheck shell=bash
+# shellcheck disable=SC2016,SC2034,SC2154 # the board expands what is in commands; variables of the script that sources this
 # SPDX-License-Identifier: Apache-2.0
 # The firmware on a virtual board of its own, and its display beside the simulator's picture, for tests to source after
 # vm.sh. They set build and host, the folders of programs.
@@ -16,6 +17,13 @@ picture_board() {
         for can in can2 can3; do
             ip link set $can up txqueuelen 64 type can bitrate 500000 dbitrate 2000000 fd on restart-ms 100
         done'
+}
+
+# in_memory PROGRAM...: on this board what is read from the host takes as long as the host likes; these and their
+# libraries are copied into its own memory.
+in_memory() {
+    vm_run "touch /bin/busybox /etc/ld.so.cache /lib/ld-linux-aarch64.so.1; for program in $*; do
+        touch \$program; /lib/ld-linux-aarch64.so.1 --list \$program | sed -n 's/.*=> \\([^ ]*\\) .*/\\1/p' | xargs touch; done"
 }
 
 # set_pattern NUMBER: what vivid shows, standing still.
@@ -44,10 +52,11 @@ end() {
     vm_run "kill \"\$(cat /share/$1)\"; while [ -e \"/proc/\$(cat /share/$1)\" ]; do sleep 0.1; done"
 }
 
-# want PATTERN POSE: the simulator's picture of that frame and pose into $VM/wanted.png.
+# want PATTERN POSE fd|classic: the simulator's picture of that frame and of the pose as such frames carry it, into
+# $VM/wanted.png.
 want() {
-    "$host/wallwarp-sim" warp "$VM/share/room.yaml" --board front --pose "$("$host/tests/board/picture_tool" pose "$2")" \
-        --in "$VM/$1.png" --out "$VM/wanted.png"
+    "$host/wallwarp-sim" warp "$VM/share/room.yaml" --board front --in "$VM/$1.png" --out "$VM/wanted.png" \
+        --pose "$("$host/tests/board/picture_tool" pose "$2" "$3")"
 }
 
 # monitor BUS: what the firmware and the sender say on it.

@@ -23,7 +23,7 @@ compare() {
         set_pattern "${patterns[i]}"
         vm_run "/tree/$build/wallwarp-pose send --bus can1 still --rate 30 --at '${poses[i]}' --seconds 600 \
             >/dev/null 2>&1 & echo \$! >/share/sender"
-        want "${patterns[i]}" "${poses[i]}"
+        want "${patterns[i]}" "${poses[i]}" classic
         shows can1 "$1"
         ok "pose $i, $1: $differences" $?
         end sender
@@ -40,6 +40,7 @@ for method in mean+cubic gauss+linear none+nearest; do
     start_firmware "s/method: .*/method: $method/" --can can0
     compare $method
     end pid
-    ok "$method: the firmware ends: $(cat "$VM/share/firmware")" $?
+    ended=$?
+    ok "$method: the firmware ends; it said: $(cat "$VM/share/firmware")" "$ended"
 done
 ok_end
