@@ -287,6 +287,13 @@ build/board-kernel/initramfs.gz: tests/board/virtual/initramfs.sh tests/board/vi
 # Programs that its tests run on it, check_*.c and probe_*.c; other files there are parts of theirs.
 VIRTUAL_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/board/virtual/check_*.c tests/board/virtual/probe_*.c))
 
+# What these are given to preload.
+HEAP_COUNTER     := $(BUILD)/tests/board/virtual/count_heap.so
+$(HEAP_COUNTER): $(call objects,tests/board/virtual/count_heap.c)
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CFLAGS) $(MACHINE) -shared -o $@ $^
+$(call objects,tests/board/virtual/count_heap.c): CFLAGS += -fPIC
+
 VIRTUAL_TESTS    := $(wildcard tests/board/virtual/test_*.sh)
 
 .PHONY: test-board virtual-programs
@@ -295,7 +302,7 @@ test-board: setup-test setup-board ## Boot a virtual arm64 board and run the fir
 	    board/wire_tool)
 	$(Q)$(MAKE) --no-print-directory BOARD=qemu-virt virtual-programs
 	$(Q)tests/board/virtual/run.sh build/test-board build/qemu-virt $(VIRTUAL_TESTS)
-virtual-programs: programs $(VIRTUAL_PROGRAMS) build/board-kernel/initramfs.gz
+virtual-programs: programs $(VIRTUAL_PROGRAMS) $(HEAP_COUNTER) build/board-kernel/initramfs.gz
 
 # --- benchmarks -------------------------------------------------------------------------------------------------------
 
