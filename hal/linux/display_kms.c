@@ -147,7 +147,11 @@ hal_status_t hal_display_wait_vblank(hal_display_t *display)
 {
     const int64_t begin_ns = clock_monotonic_ns(), end_ns = begin_ns + NO_BLANK_NS;
     kms_state_look(display, begin_ns);
-    if (!display->dark && (display->by_clock ? wait_for_clock(display, end_ns) : wait_for_driver(display, end_ns)))
+    if (display->dark) {
+        sleep_until(kms_blank_after(&display->blank, begin_ns));
+        return HAL_IO;
+    }
+    if (display->by_clock ? wait_for_clock(display, end_ns) : wait_for_driver(display, end_ns))
         return HAL_OK;
     sleep_until(end_ns);
     return HAL_IO;

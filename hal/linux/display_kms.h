@@ -35,10 +35,11 @@ typedef struct {
  * pictures as they come: blanks are then those of the mode's rate, on the board's own clock.
  *
  * Cable out, projector off, or another program has taken the display: hal_display_back_buffer() and _present() return
- * HAL_IO, hal_display_wait_vblank() too after 100 ms. The connector is looked at within hal_display_wait_vblank(), 20
- * times a second (a projector that changes what it is must be off for 100 ms: HDMI 1.4b, 8.5), at the cost of one read
- * of a file that the kernel keeps. When it is back the mode is chosen and set again, and the last picture shown; that
- * takes tens of milliseconds, is tried twice a second, and needs the same size and rate to be offered.
+ * HAL_IO, hal_display_wait_vblank() too when a blank would have come. The connector is looked at within
+ * hal_display_wait_vblank(), 20 times a second (a projector that changes what it is must be off for 100 ms:
+ * HDMI 1.4b, 8.5), at the cost of one read of a file that the kernel keeps. When it is back the mode is chosen and set
+ * again, and the last picture shown; that takes tens of milliseconds, is tried twice a second, and needs the same size
+ * and rate to be offered.
  *
  * @param[out] display  Written only when HAL_OK is returned.
  * @param[out] error    Else: one line, what failed, with which device, what was expected.

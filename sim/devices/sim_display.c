@@ -7,7 +7,7 @@
 #include "sim/devices/sim_clock.h"
 #include "sim/devices/sim_picture.h"
 
-enum { BUFFERS = 3, NONE = -1, NO_BLANK_US = 100000 };
+enum { BUFFERS = 3, NONE = -1 };
 
 struct hal_display {
     sim_display_settings_t settings;
@@ -219,7 +219,7 @@ hal_status_t hal_display_wait_vblank(hal_display_t *display)
     if (sim_clock_is_real(clock)) {
         if (display->settings.while_waiting != NULL)
             display->settings.while_waiting(display->settings.context);
-        sim_clock_sleep_until_us(clock, unplugged ? hal_time_now_us(clock) + NO_BLANK_US : next_us);
+        sim_clock_sleep_until_us(clock, next_us);
     }
     sim_display_advance(display, sim_clock_time_us(clock));
     return unplugged ? HAL_IO : HAL_OK;
