@@ -251,12 +251,12 @@ int main(int argc, char **argv)
     room_key_t key;
     if (!open_key(&key, options.key))
         return FAILED;
+    signal(SIGINT, request_stop); /* before there is anything to set back: a running watchdog, a lit display */
+    signal(SIGTERM, request_stop);
     if (!open_board(&devices, &options, &room, board)) {
         can_auth_close(key.auth);
         return FAILED;
     }
-    signal(SIGINT, request_stop);
-    signal(SIGTERM, request_stop);
     run(&room, board, &devices, &key, options.kernels);
     hal_board_close(&devices);
     can_auth_close(key.auth);
