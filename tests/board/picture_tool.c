@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of the virtual board's tests: a camera's raw bytes as a PNG for the simulator, and a screenshot compared
-// with the simulator's PNG.
+// Pictures of the virtual board's tests: a camera's raw bytes as a PNG for the simulator, a screenshot compared with
+// the simulator's PNG, and the safe picture as a screenshot has it.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "firmware/can_protocol.h"
 #include "firmware/quaternion.h"
+#include "firmware/safe_picture.h"
 #include "sim/files/png_file.h"
 #include "sim/pose/motion.h"
 #include "sim/pose/pose_text.h"
@@ -14,7 +15,8 @@
 static const char USAGE[] =
     "usage: picture_tool png WIDTH HEIGHT RAW PNG   raw XRGB8888 as a PNG\n"
     "       picture_tool differ PPM PNG            says how many bytes of RGB differ; 0 if none\n"
-    "       picture_tool pose POSE fd|classic      as `send still` and such frames carry it\n";
+    "       picture_tool pose POSE fd|classic      as `send still` and such frames carry it\n"
+    "       picture_tool safe WIDTH HEIGHT NODE    the safe picture as a PPM, to stdout\n";
 
 enum { BYTES = IMAGE_XRGB8888 };
 
@@ -107,6 +109,22 @@ static int carry_pose(const char *text, bool fd)
     return 0;
 }
 
+static int write_safe(int32_t width, int32_t height, int32_t node)
+{
+    uint8_t *pixels = calloc((size_t)width * (size_t)height, BYTES);
+    if (pixels == NULL)
+        return fail("out of memory");
+    const picture_t panel = {
+        .format = PICTURE_XRGB8888, .width = width, .height = height, .data = {pixels}, .stride = {width * BYTES}};
+    safe_picture_draw(&panel, node);
+    printf("P6\n%d %d\n255\n", width, height);
+    for (int64_t i = 0; i < (int64_t)width * height; i++)
+        for (int channel = 2; channel >= 0; channel--)
+            putchar(pixels[i * BYTES + channel]);
+    free(pixels);
+    return 0;
+}
+
 int main(int argc, char **argv)
 {
     const bool fd = argc == 4 && strcmp(argv[3], "fd") == 0;
@@ -116,6 +134,8 @@ int main(int argc, char **argv)
         return differ(argv[2], argv[3]);
     if (argc == 4 && strcmp(argv[1], "pose") == 0 && (fd || strcmp(argv[3], "classic") == 0))
         return carry_pose(argv[2], fd);
+    if (argc == 5 && strcmp(argv[1], "safe") == 0)
+        return write_safe(atoi(argv[2]), atoi(argv[3]), atoi(argv[4]));
     fputs(USAGE, stderr);
     return 2;
 }
