@@ -56,6 +56,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
     (void)argv;
     projector.board.can = &can;
     projector.node = NODE;
+    projector.choice.clock.rate = (frame_rate_t){60, 1};
     projector.room_method = warp_method_default();
     warp_init(&projector.warp, *projector.room_method, false, border);
     for (int i = 0; i < WARP_METHODS; i++)

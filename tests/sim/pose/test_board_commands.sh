@@ -87,7 +87,8 @@ END
     done
     check "a board is told much" $((27 - i))
     tell 1 log
-    [ "$(wc -l <"$scratch/stdout")" -eq 50 ] && tail -n 8 "$scratch/stdout" | grep -q 'command   freeze off: done'
+    lines=$(wc -l <"$scratch/stdout") # more than 50 when some come meanwhile
+    [ "$lines" -ge 50 ] && [ "$lines" -lt 60 ] && grep ' command ' "$scratch/stdout" | tail -n 1 | grep -q 'freeze off: done'
     check "the newest 50 events are read" $?
     tell all log --all && [ "$(grep -c '^board 1: .*freeze on: done' "$scratch/stdout")" -eq 28 ] &&
         grep -q '^board 2: .*latency 40 ms: done' "$scratch/stdout" &&
