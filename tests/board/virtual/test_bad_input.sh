@@ -79,7 +79,7 @@ test_check_finds_all() {
     [ "$status $freed" = '0 1' ] && ! grep -q '^missing' <<<"$said"
     ok "--check of what is right: status $status, free $freed; said: $said" $?
     for word in 'room: /share/room.yaml' 'can can2: 500000 bit/s FD, data 2000000' 'vivid' 'Virtual-1' \
-        'LED, line 0' 'lamp, line 3' 'i6300ESB' 'real-time priority' 'locked memory' 'CAP_NET_ADMIN' 'arch_sys_counter'; do
+        'line 0 (LED)' 'line 3 (lamp)' 'i6300ESB' 'real-time priority' 'locked memory' 'CAP_NET_ADMIN' 'arch_sys_counter'; do
         grep '^found\|^advice' <<<"$said" | grep -qF "$word"
         ok "--check finds $word; said: $said" $?
     done
