@@ -36,6 +36,7 @@ typedef struct {
     bool whole;     /**< the code is due */
     int uncoded;    /**< whole messages since the newest that was believed, whose codes never came; */
     uint8_t newest; /**< that one's counter */
+    int torn;       /**< codes since then whose message did not come whole: they explain a gap in the counter */
 } bus_auth_message_t;
 
 /** All zero bytes: the room has no key, every frame is believed, nothing is signed. */

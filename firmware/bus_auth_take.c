@@ -56,11 +56,12 @@ static void settle(bus_auth_message_t *message, int frames, can_faults_t *faults
 {
     uint32_t lost = 0;
     (void)can_e2e_step(message->newest, can_classic_counter(&message->frame[0]), CAN_E2E_P01_COUNTERS, &lost);
-    const uint32_t uncoded = (uint32_t)message->uncoded;
+    const uint32_t uncoded = (uint32_t)message->uncoded, torn = (uint32_t)message->torn;
+    lost = lost > torn ? lost - torn : 0;
     lost = lost < uncoded ? lost : uncoded;
     faults->auth_lost += lost;
     faults->auth_unsigned += uncoded - lost;
-    message->uncoded = 0;
+    message->uncoded = message->torn = 0;
     message->newest = can_classic_counter(&message->frame[frames - 1]);
 }
 
@@ -97,6 +98,7 @@ static int judge(bus_auth_t *auth, can_auth_stream_t *stream, bus_auth_message_t
     message->whole = false;
     if (!whole) {
         faults->incomplete_set++;
+        message->torn++;
         return 0;
     }
     const can_auth_window_t window = auth_clock_window(&auth->clock, tag->time_us);
