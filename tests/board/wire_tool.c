@@ -2,9 +2,9 @@
 // Frames of the virtual board's tests: a pose for can-utils' cansend, and what a board reports in a log of candump.
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "firmware/can_e2e.h"
 #include "firmware/can_latency.h"
 #include "sim/bus/candump_text.h"
 #include "sim/pose/motion.h"
@@ -12,8 +12,8 @@
 #include "sim/pose/pose_text.h"
 
 static const char USAGE[] =
-    "usage: wire_tool frames POSE fd|classic COUNT   so many times the pose, a frame a line, as cansend takes it\n"
-    "       wire_tool reports <LOG                   of candump -L: what the one board in it says of its time\n";
+    "usage: wire_tool frames POSE fd|classic   the pose with each counter once, a frame a line, as cansend takes it\n"
+    "       wire_tool reports <LOG             of candump -L: what the one board in it says of its time\n";
 
 static int fail(const char *error)
 {
@@ -28,8 +28,10 @@ static void print_for_cansend(const hal_can_frame_t *frame)
     puts(strrchr(text, ' ') + 1);
 }
 
-static int print_frames(const char *text, bool fd, int count)
+/* As many as the counter has values, so that who sends them again and again sends nothing stale. */
+static int print_frames(const char *text, bool fd)
 {
+    const int count = fd ? CAN_E2E_P05_COUNTERS : CAN_E2E_P01_COUNTERS;
     char error[POSE_TEXT_MESSAGE_LENGTH];
     motion_t still = {.kind = MOTION_STILL, .rate_hz = 1.0, .duration_s = 1.0};
     pose_list_t list;
@@ -121,9 +123,9 @@ static int sum_reports(FILE *log)
 
 int main(int argc, char **argv)
 {
-    const bool fd = argc == 5 && strcmp(argv[3], "fd") == 0;
-    if (argc == 5 && strcmp(argv[1], "frames") == 0 && (fd || strcmp(argv[3], "classic") == 0))
-        return print_frames(argv[2], fd, atoi(argv[4]));
+    const bool fd = argc == 4 && strcmp(argv[3], "fd") == 0;
+    if (argc == 4 && strcmp(argv[1], "frames") == 0 && (fd || strcmp(argv[3], "classic") == 0))
+        return print_frames(argv[2], fd);
     if (argc == 2 && strcmp(argv[1], "reports") == 0)
         return sum_reports(stdin);
     fputs(USAGE, stderr);

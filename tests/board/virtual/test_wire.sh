@@ -45,7 +45,7 @@ test_tool() {
 
 # test_cansend BUS KIND: one process of can-utils for each frame.
 test_cansend() {
-    "$host/tests/board/wire_tool" frames "$pose_of_cansend" "$2" 15 >"$VM/share/frames"
+    "$host/tests/board/wire_tool" frames "$pose_of_cansend" "$2" >"$VM/share/frames"
     vm_run "sed 's/^/cansend $1 /; / 1\(00\|12\)#/s/\$/; sleep 0.03/' /share/frames >/run/cansends
         { while true; do . /run/cansends; done; } >/share/send 2>&1 & echo \$! >/share/sender"
     wanted_is_shown "$1" "$2" cansend "$pose_of_cansend"
