@@ -13,17 +13,24 @@
 #include "sim/pose/pose_text.h"
 
 static const char USAGE[] =
-    "usage: picture_tool png WIDTH HEIGHT RAW PNG   raw XRGB8888 as a PNG\n"
+    "usage: picture_tool png WIDTH HEIGHT RAW PNG   raw XRGB8888, or RGB888, as a PNG\n"
     "       picture_tool differ PPM PNG            says how many bytes of RGB differ; 0 if none\n"
     "       picture_tool pose POSE fd|classic      as `send still` and such frames carry it\n"
     "       picture_tool safe WIDTH HEIGHT NODE    the safe picture as a PPM, to stdout\n";
 
-enum { BYTES = IMAGE_XRGB8888 };
+enum { BYTES = IMAGE_XRGB8888, PACKED_BYTES = 3 };
 
 static int fail(const char *error)
 {
     fprintf(stderr, "picture_tool: %s\n", error);
     return 2;
+}
+
+/* From RGB888 to XRGB8888 in place: the last pixel first. */
+static void unpack(uint8_t *pixels, size_t count)
+{
+    while (count-- > 0)
+        memmove(&pixels[count * BYTES], &pixels[count * PACKED_BYTES], PACKED_BYTES);
 }
 
 static int write_png(int32_t width, int32_t height, const char *raw, const char *png)
@@ -33,17 +40,19 @@ static int write_png(int32_t width, int32_t height, const char *raw, const char 
     FILE *file = file_open(raw, &size, error);
     if (file == NULL)
         return fail(error);
-    const size_t bytes = (size_t)size;
-    uint8_t *pixels = malloc(bytes);
+    const size_t count = (size_t)width * (size_t)height, bytes = (size_t)size;
+    uint8_t *pixels = calloc(count, BYTES);
     const image_t image = {pixels, width, height, width * BYTES, IMAGE_XRGB8888};
-    const bool right =
-        pixels != NULL && size == (int64_t)width * height * BYTES && fread(pixels, 1, bytes, file) == bytes;
+    const bool right = pixels != NULL && (bytes == count * BYTES || bytes == count * PACKED_BYTES) &&
+                       fread(pixels, 1, bytes, file) == bytes;
     (void)fclose(file);
+    if (right && bytes == count * PACKED_BYTES)
+        unpack(pixels, count);
     const bool written = right && png_file_write(png, &image, error);
     free(pixels);
     if (!right)
-        (void)file_error(error, raw, "%lld bytes, expected the %d x %d x %d of a picture", (long long)size, width,
-                         height, BYTES);
+        (void)file_error(error, raw, "%lld bytes, expected the %d x %d x %d or %d of a picture", (long long)size, width,
+                         height, BYTES, PACKED_BYTES);
     return written ? 0 : fail(error);
 }
 

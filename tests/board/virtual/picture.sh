@@ -40,6 +40,21 @@ record_frame() {
         "$host/tests/board/picture_tool" png 320 180 "$VM/share/$1.1" "$VM/$1.png"
 }
 
+# set_vimc_pattern NUMBER: the same of the camera that libcamera has.
+set_vimc_pattern() {
+    vm_run 'sensor=$(dirname $(grep -lx "Sensor B" /sys/class/video4linux/v4l-subdev*/name))
+        v4l2-ctl -d "/dev/${sensor##*/}" -c "test_pattern='"$1"',show_information=2"'
+}
+
+# record_vimc_frame PATTERN: as record_frame, into $VM/vimc-PATTERN.png, 318x180: vimc's widths are multiples of 6.
+record_vimc_frame() {
+    local recorded=$VM/share/vimc-$1.cam0-stream0-00000
+    set_vimc_pattern "$1"
+    vm_run "cam -c 1 -C2 -s width=318,height=180,pixelformat=RGB888 --file=/share/vimc-$1.# >/dev/null 2>&1"
+    cmp "${recorded}0" "${recorded}1" &&
+        "$host/tests/board/picture_tool" png 318 180 "${recorded}0" "$VM/vimc-$1.png"
+}
+
 # start_firmware SED_SCRIPT OPTION...: with the room as the script changes it.
 start_firmware() {
     sed "$1" $room >"$VM/share/room.yaml"
@@ -52,8 +67,8 @@ end() {
     vm_run "kill \"\$(cat /share/$1)\"; while [ -e \"/proc/\$(cat /share/$1)\" ]; do sleep 0.1; done"
 }
 
-# want PATTERN POSE fd|classic: the simulator's picture of that frame and of the pose as such frames carry it, into
-# $VM/wanted.png.
+# want FRAME POSE fd|classic: the simulator's picture of that frame and of the pose as such frames carry it, into
+# $VM/wanted.png. FRAME is as recorded: a pattern of vivid, or vimc-PATTERN.
 want() {
     "$host/wallwarp-sim" warp "$VM/share/room.yaml" --board front --in "$VM/$1.png" --out "$VM/wanted.png" \
         --pose "$("$host/tests/board/picture_tool" pose "$2" "$3")"

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # The firmware on the virtual board: what its display shows, seen from outside, is the simulator's picture for the same
-# frame and pose, byte for byte. The frame is a still one of vivid, recorded before the firmware takes the camera.
+# frame and pose, byte for byte. The frame is a still one of vivid (V4L2) or of vimc (libcamera), recorded before the
+# firmware takes the camera, and changes while it runs.
 # Usage, from the tree's root: tests/board/virtual/test_picture.sh BUILD_FOLDER_OF_THE_BOARD [BUILD_FOLDER_OF_THE_HOST]
 set -u
 build=${1:?usage: test_picture.sh BUILD_FOLDER_OF_THE_BOARD [BUILD_FOLDER_OF_THE_HOST]}
@@ -30,6 +31,28 @@ compare() {
     done
 }
 
+# With libcamera: the wall follows each change of the camera's picture.
+test_libcamera() {
+    local pattern
+    for pattern in 4 2; do
+        record_vimc_frame $pattern
+        ok "vimc's pattern $pattern stands still" $?
+    done
+    start_firmware "s/width: 320, height: 180/width: 318, height: 180/; s/method: .*/method: mean+cubic/" --can can0 \
+        --camera libcamera:0
+    vm_run "/tree/$build/wallwarp-pose send --bus can1 still --rate 30 --at '${poses[0]}' --seconds 600 \
+        >/dev/null 2>&1 & echo \$! >/share/sender"
+    for pattern in 2 4; do
+        set_vimc_pattern $pattern
+        want vimc-$pattern "${poses[0]}" classic
+        shows can1 mean+cubic
+        ok "vimc's pattern $pattern, libcamera: $differences" $?
+    done
+    end sender
+    end pid
+    ok "libcamera: the firmware ends; it said: $(cat "$VM/share/firmware")" $?
+}
+
 trap vm_stop EXIT
 picture_board build/vm-picture 320x240@24 || exit 1
 for pattern in "${patterns[@]}"; do
@@ -43,4 +66,5 @@ for method in mean+cubic gauss+linear none+nearest; do
     ended=$?
     ok "$method: the firmware ends; it said: $(cat "$VM/share/firmware")" "$ended"
 done
+test_libcamera
 ok_end
