@@ -21,21 +21,30 @@ ok() {
 
 # As it is installed, but with the program that was built.
 sed "s|/usr/local/bin/wallwarp|$wallwarp|; s|/etc/wallwarp/|$folder/|" board/service/wallwarp.service >"$folder/wallwarp.service"
-sed "s|/etc/wallwarp/room.yaml|sim/demo/room.yaml|" board/service/board.conf >"$folder/board.conf"
+cp board/service/wallwarp.yaml sim/demo/room.yaml "$folder"
 SYSTEMD_LOG_LEVEL=warning systemd-analyze verify --man=no "$folder/wallwarp.service" >"$folder/said" 2>&1 &&
     [ ! -s "$folder/said" ]
 ok $? "systemd-analyze verify: $(cat "$folder/said")"
 
-# A command of the unit, with the variables of board.conf.
+# A command of the unit.
 command_of() {
-    # shellcheck disable=SC1091 # made above
-    . "$folder/board.conf"
-    eval "echo $(sed -n "s/^$1=//p" "$folder/wallwarp.service")"
+    sed -n "s/^$1=//p" "$folder/wallwarp.service"
 }
 sh -c "$(command_of ExecStart) --check" >"$folder/said" 2>&1
 ok $? "ExecStart, with --check: $(cat "$folder/said")"
-grep -q 'found    room: sim/demo/room.yaml, node 1' "$folder/said"
+grep -q "found    room: $folder/room.yaml, node 1" "$folder/said"
 ok $? "ExecStart names no room: $(cat "$folder/said")"
+
+# Every key that may be left out is in the file, as a comment, and becomes right without it.
+sed 's/^# \([a-z]*: \)/\1/; s|^key: .*|key: room.key|; s|^can: .*|can: 0|; s|^camera: .*|camera: pattern|
+    s|^display: .*|display: none|' board/service/wallwarp.yaml >"$folder/wallwarp.yaml"
+(umask 077 && echo 00112233445566778899aabbccddeeff >"$folder/room.key")
+sh -c "$(command_of ExecStart) --check" >"$folder/said" 2>&1
+ok $? "ExecStart, with every key and --check: $(cat "$folder/said")"
+for key in node room key can camera display workers; do
+    grep -q "^$key: " "$folder/wallwarp.yaml"
+    ok $? "wallwarp.yaml does not show the key $key"
+done
 sh -c "$(command_of ExecStopPost)" >"$folder/said" 2>&1
 ok $? "ExecStopPost: $(cat "$folder/said")"
 

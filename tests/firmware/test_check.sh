@@ -46,6 +46,30 @@ expect 1 'missing  display: Makefile is no folder' --check --display Makefile
 expect 0 "found    display: $folder/new" --check --display "$folder/new"
 [ ! -e "$folder/new" ]
 ok $? "--check made a folder"
+# configured FILE LINE...: that file in the folder
+configured() {
+    file=$folder/$1
+    shift
+    printf '%s\n' "$@" >"$file"
+}
+(umask 077 && echo 00112233445566778899aabbccddeeff >"$folder/room.key")
+cp $room "$folder/room.yaml"
+configured good 'node: 2' 'room: room.yaml' 'key: room.key' 'can: 29537' "display: $folder/wall"
+expect 0 "found    config: $folder/good" --check --config "$folder/good"
+expect 0 "found    room: $folder/room.yaml, node 2, \"left\"" --check --config "$folder/good"
+expect 0 "found    key: $folder/room.key" --check --config "$folder/good"
+expect 0 'found    can: port 29537 of 127.0.0.1' --check --config "$folder/good"
+expect 0 "found    display: $folder/wall" --check --config "$folder/good"
+expect 0 "found    room: $folder/room.yaml, node 1, \"front\"" --check --config "$folder/good" --node 1
+expect 0 'found    can: port 29538 of 127.0.0.1' --check --config "$folder/good" --can 29538
+expect 1 'missing  room: nowhere.yaml:1: file: cannot be opened' --check --config "$folder/good" nowhere.yaml
+configured bad 'node: 2' 'room: room.yaml' 'can: can0' 'workers: 9'
+expect 1 "missing  config: $folder/bad:4: workers: found 9, expected 1 to 4" --check --config "$folder/bad"
+! grep -q room: "$folder/out"
+ok $? "--check of a wrong configuration says something of a room"
+configured keyless 'node: 2' 'room: room.yaml' 'key: none.key'
+expect 1 "missing  key: $folder/none.key: " --check --config "$folder/keyless"
+expect 1 'missing  config: nowhere.yaml:1: file: cannot be opened' --check --config nowhere.yaml
 expect 2 'wallwarp: expected ROOM and --node N' --check $room
 expect 2 'wallwarp: expected ROOM and --node N' --check --node 1
 expect 2 'wallwarp: expected ROOM and --node N'

@@ -27,6 +27,10 @@ seed() {
         sed "s/^    node: 1$/&\n    $options\n    ls_weights: {x: [1], y: [1, 2]}/; s/\[-2400, 0, 2400\]/null/" \
             sim/demo/room.yaml >"$2/options.yaml"
         ;;
+    fuzz_board_config)
+        cp board/service/wallwarp.yaml "$2"
+        printf 'node: 1\nroom: r\nkey: /k\ncan: can1\ncamera: "v4l2:A b"\ndisplay: auto\nworkers: 4\n' >"$2/each.yaml"
+        ;;
     fuzz_png)
         for picture in tests/images/*.png; do
             head -c 3000 "$picture" >"$2/$(basename "$picture")"

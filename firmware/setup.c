@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a board needs before it opens its devices: its configuration, its room, and the room's key.
+#include "firmware/setup.h"
+
+#include <stdio.h>
+
+#include "firmware/auth_key.h"
+#include "hal/hal_random.h"
+
+_Static_assert((int)HAL_KEY_ERROR_LENGTH <= (int)ROOM_MESSAGE_LENGTH, "what is said of a key must fit");
+
+static void print_warning(void *context, const char *line)
+{
+    (void)context;
+    fprintf(stderr, "warning: %s\n", line);
+}
+
+bool setup_read_config(setup_t *setup, options_t *options, char error[ROOM_MESSAGE_LENGTH])
+{
+    if (options->config == NULL)
+        return true;
+    if (!board_config_load(&setup->config, options->config, error))
+        return false;
+    options_complete(options, &setup->config);
+    return true;
+}
+
+bool setup_read_room(setup_t *setup, const options_t *options, char error[ROOM_MESSAGE_LENGTH])
+{
+    if (!room_load(&setup->room, options->room, print_warning, NULL, error))
+        return false;
+    setup->board = room_board_with_node(&setup->room, options->node);
+    if (setup->board == NULL)
+        (void)snprintf(error, ROOM_MESSAGE_LENGTH, "%s: no board has node %d", options->room, options->node);
+    return setup->board != NULL;
+}
+
+bool setup_read_key(setup_t *setup, const options_t *options, char error[ROOM_MESSAGE_LENGTH])
+{
+    if (options->key == NULL)
+        return true;
+    if (hal_random(&setup->seed) != HAL_OK) {
+        (void)snprintf(error, ROOM_MESSAGE_LENGTH, "key: no random numbers from the system");
+        return false;
+    }
+    char reason[HAL_KEY_ERROR_LENGTH];
+    setup->auth = auth_key_open(options->key, reason);
+    if (setup->auth == NULL)
+        (void)snprintf(error, ROOM_MESSAGE_LENGTH, "key: %.500s", reason);
+    return setup->auth != NULL;
+}
+
+void setup_close(setup_t *setup)
+{
+    can_auth_close(setup->auth);
+    setup->auth = NULL;
+}
+
+hal_board_needs_t setup_needs(const setup_t *setup)
+{
+    const room_t *room = &setup->room;
+    return (hal_board_needs_t){
+        .picture_width = room->camera.width,
+        .picture_height = room->camera.height,
+        .panel_width = setup->board->wall.panel_width,
+        .panel_height = setup->board->wall.panel_height,
+        .refresh_frames = room->refresh.frames,
+        .refresh_seconds = room->refresh.seconds,
+        .bitrate = room->bitrate,
+        .data_bitrate = room->data_bitrate,
+        .fd = room->fd,
+    };
+}
