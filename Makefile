@@ -45,7 +45,8 @@ MAINS    := firmware/main.c sim/wallwarp_sim.c sim/wallwarp_eval.c sim/wallwarp_
 
 WARP_C     := $(wildcard warp_fixed/*.c)
 # Of no board's own, so that the simulator has them too; the rest are the devices of Linux boards.
-HAL_C      := $(wildcard $(addprefix hal/linux/,clocks.c key_file.c random_linux.c workers_pthread.c))
+HAL_C      := $(wildcard $(addprefix hal/linux/,clocks.c key_file.c random_linux.c update_words.c \
+              workers_pthread.c))
 GPIOD      := $(if $(shell grep -s gpiod_request_config $(SYSROOT)/usr/include/gpiod.h),2,1)
 LINUX_C    := $(filter-out $(HAL_C) hal/linux/gpio_gpiod_v%.c,$(wildcard hal/linux/*.c)) \
               $(wildcard hal/linux/gpio_gpiod_v$(GPIOD).c)

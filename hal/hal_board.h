@@ -13,6 +13,7 @@
 #include "hal/hal_service.h"
 #include "hal/hal_status.h"
 #include "hal/hal_time.h"
+#include "hal/hal_update.h"
 #include "hal/hal_watchdog.h"
 #include "hal/hal_workers.h"
 
@@ -28,6 +29,7 @@ typedef struct {
     hal_watchdog_t *watchdog;
     hal_workers_t *workers; /**< NULL: the loop's thread alone */
     hal_service_t *service; /**< NULL: nobody is told how the firmware does */
+    hal_update_t *update;   /**< NULL: there is no update agent */
     void *own;              /**< what the HAL keeps behind its devices, or NULL */
 } hal_board_t;
 

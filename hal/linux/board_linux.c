@@ -10,6 +10,7 @@
 #include "hal/linux/realtime_linux.h"
 #include "hal/linux/service_systemd.h"
 #include "hal/linux/time_linux.h"
+#include "hal/linux/update_folder.h"
 #include "hal/linux/watchdog_linux.h"
 
 enum { HIGHEST_PRIORITY = 99 };
@@ -127,6 +128,19 @@ static void close_service(hal_board_t *board)
     service_systemd_close(board->service);
 }
 
+static hal_status_t open_update(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                                char error[HAL_BOARD_ERROR_LENGTH])
+{
+    (void)table;
+    (void)needs;
+    return update_folder_open(&board->update, update_folder_path, error);
+}
+
+static void close_update(hal_board_t *board)
+{
+    update_folder_close(board->update);
+}
+
 static hal_status_t open_workers(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
                                  char error[HAL_BOARD_ERROR_LENGTH])
 {
@@ -157,9 +171,10 @@ static const struct {
     open_fn *open;
     close_fn *close;
 } devices[] = {
-    {open_clock, close_clock},     {open_realtime, close_realtime}, {open_can, close_can},
-    {open_camera, close_camera},   {open_display, close_display},   {open_lines, close_lines},
-    {open_service, close_service}, {open_workers, close_workers},   {open_watchdog, close_watchdog},
+    {open_clock, close_clock},       {open_realtime, close_realtime}, {open_can, close_can},
+    {open_camera, close_camera},     {open_display, close_display},   {open_lines, close_lines},
+    {open_service, close_service},   {open_update, close_update},     {open_workers, close_workers},
+    {open_watchdog, close_watchdog},
 };
 
 enum { DEVICES = sizeof devices / sizeof *devices };
