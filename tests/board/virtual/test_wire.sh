@@ -52,7 +52,8 @@ test_cansend() {
     end sender
 }
 
-# test_requests BUS KIND: hello, from our tool and from the kernel's ISO-TP.
+# test_requests BUS KIND: hello, from our tool and from the kernel's ISO-TP; a method that the board is ready for, and one
+# that it is not.
 test_requests() {
     said=$(vm_run "/tree/$build/wallwarp-pose command hello --bus $1 --node 1")
     ok "$2, command hello: $said" $?
@@ -61,6 +62,12 @@ test_requests() {
     text=$(xxd -r -p <<<"${reply:21}")
     [[ $reply == '81 00 01 '* && -n $text && $said == *"$text"* ]]
     ok "$2, hello over the kernel's ISO-TP: heard $reply, $text; the tool heard: $said" $?
+    said=$(vm_run "/tree/$build/wallwarp-pose command method mean+cubic --bus $1 --node 1 && sleep 1.2") &&
+        said=$(monitor "$1") && grep -q '^ *1  .* mean+cubic, step 0$' <<<"$said"
+    ok "$2, command method: $said" $?
+    said=$(vm_run "/tree/$build/wallwarp-pose command method gauss+linear --bus $1 --node 1")
+    [ "$?" = 1 ] && [[ $said == *'board 1 is not ready for this method; put it into the room file'* ]]
+    ok "$2, command method, not ready: $said" $?
 }
 
 # test_wire KIND OF_BOARD OTHER SEND_OPTION...
