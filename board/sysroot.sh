@@ -9,7 +9,7 @@ set -eu
 
 # The compilers' libraries, as clang looks for them, and what the firmware and its tests are linked with.
 libraries='libc6-dev libgcc-12-dev libstdc++-12-dev libcyaml-dev libyaml-dev libpng-dev zlib1g-dev libjansson-dev
-    libcbor-dev liblo-dev libmbedtls-dev libdrm-dev libgpiod-dev libcamera-dev libsystemd-dev libudev-dev libmnl-dev libcmocka-dev'
+    libcbor-dev liblo-dev libmbedtls-dev libdrm-dev libgpiod-dev libcamera-dev libmnl-dev libcmocka-dev'
 # What runs on the virtual board beside them.
 programs='libc-bin dash bash coreutils procps util-linux mount grep sed mawk findutils kmod udev systemd iproute2 can-utils gpiod v4l-utils
     libcamera-tools libcamera-ipa libdrm-tests busybox-static'
