@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # The firmware on a virtual board and what is seen of it from outside, for scripts to source after vm.sh.
 #
-#   firmware_board FOLDER       a board with its time told by its instructions, so that it is as fast as a real one however
-#                               slow this machine is; its buses are can0 and can1, its display has the room's size
+#   firmware_board FOLDER       a board with its time told by its instructions; its buses are can0 and can1, its display
+#                               has the room's size
 #   start NAME COMMAND          on the board; what it says is in $VM/share/NAME
 #   end NAME                    ends it, if it has not ended, and prints its exit status
 #   start_firmware ROOM BUS [OPTIONS]   that of the folder $build, with a room file of /share; NAME is firmware
@@ -21,7 +21,7 @@ firmware_states=(waiting running holding safe fault frozen pattern)
 firmware_lines=/sys/devices/platform/gpio-sim.0/gpiochip1
 
 firmware_board() {
-    VM_ACCEL=tcg,thread=single vm_start "$1" -icount shift=0,sleep=off \
+    vm_start_counted "$1" \
         -append 'console=ttyAMA0 panic=-1 quiet vt.global_cursor_default=0 video=Virtual-1:320x240@24' || return 1
     vm_run 'for can in can0 can1; do ip link set $can up type can bitrate 500000 restart-ms 100; done'
 }

@@ -4,26 +4,17 @@
 # The firmware on a virtual board of its own, and its display beside the simulator's picture, for tests to source after
 # vm.sh. They set build and host, the folders of programs.
 #
-# Time on this board is told by its instructions, so that it is as fast as a real one however slow this machine is, and
-# the firmware has no reason for a cheaper method. What sleeps costs nothing.
+# Time on this board is told by its instructions, so that the firmware has no reason for a cheaper method.
 room=tests/board/virtual/picture_room.yaml
 
 # picture_board FOLDER WIDTHxHEIGHT: a board with that display, and both wires up: can0 and can1 classic, can2 and can3
 # with CAN FD.
 picture_board() {
-    VM_ACCEL=tcg,thread=single vm_start "$1" -icount shift=0,sleep=off \
-        -append "console=ttyAMA0 panic=-1 quiet video=Virtual-1:$2" || return
+    vm_start_counted "$1" -append "console=ttyAMA0 panic=-1 quiet video=Virtual-1:$2" || return
     vm_run 'for can in can0 can1; do ip link set $can up txqueuelen 64 type can bitrate 500000 restart-ms 100; done
         for can in can2 can3; do
             ip link set $can up txqueuelen 64 type can bitrate 500000 dbitrate 2000000 fd on restart-ms 100
         done'
-}
-
-# in_memory PROGRAM...: on this board what is read from the host takes as long as the host likes; these and their
-# libraries are copied into its own memory.
-in_memory() {
-    vm_run "touch /bin/busybox /etc/ld.so.cache /lib/ld-linux-aarch64.so.1; for program in $*; do
-        touch \$program; /lib/ld-linux-aarch64.so.1 --list \$program | sed -n 's/.*=> \\([^ ]*\\) .*/\\1/p' | xargs touch; done"
 }
 
 # set_pattern NUMBER: what vivid shows, standing still.

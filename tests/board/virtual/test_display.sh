@@ -1,14 +1,15 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # The display's contract on three drivers of the virtual board: virtio-gpu and bochs, which have no vertical blanks and
-# are seen from outside, and vkms, which has them and is seen through its framebuffer.
+# are seen from outside, and vkms, which has them and is seen through its framebuffer. When blanks come and what is done
+# between them is judged by the board's own time, which is told by its instructions.
 # Usage, from the tree's root: tests/board/virtual/test_display.sh BUILD_FOLDER_OF_THE_BOARD
 set -u
 build=${1:?usage: test_display.sh BUILD_FOLDER_OF_THE_BOARD}
 . tests/board/virtual/vm.sh
 . tests/board/virtual/checks.sh
-probe=/tree/$build/tests/board/virtual/probe_display
-scanout=/tree/$build/tests/board/virtual/probe_scanout
+probe=/run/probe_display
+scanout=/run/probe_scanout
 
 # see CARD FILE: what the card shows.
 see() {
@@ -97,7 +98,10 @@ test_cable() {
     vm_run "echo detect >\$(echo $status)"
 }
 
-vm_use || exit 1
+trap vm_stop EXIT
+vm_start_counted "${VM_SHARED:-build/vm}-display" || exit 1
+vm_run "cp /tree/$build/tests/board/virtual/probe_display /tree/$build/tests/board/virtual/probe_scanout /run/"
+vm_in_memory $probe $scanout
 vm_run 'echo 0 >/sys/class/graphics/fbcon/cursor_blink; modprobe bochs; modprobe vkms; udevadm settle; ls /dev/dri/card0 /dev/dri/card1 /dev/dri/card2' >/dev/null
 ok "there are three displays" $?
 for card in card0 card1 card2; do

@@ -115,7 +115,7 @@ test_libcamera() {
 trap vm_stop EXIT
 picture_board build/vm-measures 64x48@120 || exit 1 # which is made 121.06 Hz
 vm_run "cp /tree/$build/wallwarp /tree/$build/tests/board/virtual/count_heap.so /run/"
-in_memory /run/wallwarp
+vm_in_memory /run/wallwarp
 tests=${*:3}
 for test in ${tests:-start many_frames libcamera}; do
     "test_$test"

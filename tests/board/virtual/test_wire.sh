@@ -85,7 +85,7 @@ test_wire() {
 
 trap vm_stop EXIT
 picture_board build/vm-wire 320x240@24 || exit 1
-in_memory /usr/bin/cansend
+vm_in_memory /usr/bin/cansend
 record_frame $pattern
 ok "the camera's picture stands still" $?
 test_wire classic can0 can1

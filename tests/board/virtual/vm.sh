@@ -9,6 +9,11 @@
 #   vm_use                             for tests that leave the board as they found it: the one that run.sh's tests share,
 #                                      or this script's own
 #   vm_start FOLDER [QEMU_OPTION...]   a new one, VM=FOLDER. Returns when commands can be run; on failure says why
+#   vm_start_counted FOLDER [QEMU_OPTION...]   the same, with its time told by its instructions, 1 ns each: what it does
+#                                      takes as long however busy this machine is, and what sleeps in it costs nothing.
+#                                      Only this machine's files take it any time, see vm_in_memory. Left alone, it runs
+#                                      ahead: its minutes pass in seconds
+#   vm_in_memory PROGRAM...            copies these, their libraries and busybox from this machine into its memory
 #   vm_run [-t SECONDS] COMMAND        runs it in a shell of the board and prints what it prints. Exit status: its own,
 #                                      124 after SECONDS (60), 125 when the board is gone
 #   vm_screenshot FILE [DEVICE]        what a display shows, as a PPM: gpu, or another device's id
@@ -16,7 +21,6 @@
 #   vm_has_event NAME                  whether qemu has told of it: WATCHDOG, SHUTDOWN ...
 #   vm_alive                           whether it runs
 #   vm_stop                            ends it as a lost power supply does
-# VM_ACCEL, when it is set, is how qemu emulates, in place of a thread for each CPU.
 # Each call is bounded in time. A board is ended after VM_SECONDS, whatever becomes of those who use it.
 VM=${VM-}
 VM_SECONDS=900
@@ -55,6 +59,15 @@ vm_start() {
     tail -n 15 "$VM/console" "$VM/qemu" >&2
     vm_stop
     return 1
+}
+
+vm_start_counted() {
+    VM_ACCEL=tcg,thread=single vm_start "$@" -icount shift=0,sleep=off
+}
+
+vm_in_memory() {
+    vm_run "touch /bin/busybox /etc/ld.so.cache /lib/ld-linux-aarch64.so.1; for program in $*; do
+        touch \$program; /lib/ld-linux-aarch64.so.1 --list \$program | sed -n 's/.*=> \\([^ ]*\\) .*/\\1/p' | xargs touch; done"
 }
 
 # Two wires of CAN; reset and panic end it.
