@@ -15,6 +15,7 @@ static const int64_t SECOND_NS = 1000000000, NO_BLANK_NS = 100000000;
 
 static void take_event(hal_display_t *display, const kms_event_t *event)
 {
+    display->hangs = false;
     if (!display->by_clock)
         kms_blank_add(&display->blank, event->time_ns, event->sequence);
     if (event->token > display->answered)
@@ -145,14 +146,19 @@ static bool wait_for_clock(hal_display_t *display, int64_t until_ns)
 
 hal_status_t hal_display_wait_vblank(hal_display_t *display)
 {
-    const int64_t begin_ns = clock_monotonic_ns(), end_ns = begin_ns + NO_BLANK_NS;
+    const int64_t begin_ns = clock_monotonic_ns();
     kms_state_look(display, begin_ns);
+    if (display->hangs)
+        take_events(display); /* an answer has come after the last wait */
+    const int64_t next_ns = kms_blank_after(&display->blank, begin_ns);
     if (display->dark) {
-        sleep_until(kms_blank_after(&display->blank, begin_ns));
+        sleep_until(next_ns);
         return HAL_IO;
     }
+    const int64_t end_ns = display->hangs ? next_ns : begin_ns + NO_BLANK_NS;
     if (display->by_clock ? wait_for_clock(display, end_ns) : wait_for_driver(display, end_ns))
         return HAL_OK;
+    display->hangs = true;
     sleep_until(end_ns);
     return HAL_IO;
 }

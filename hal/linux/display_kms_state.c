@@ -67,7 +67,7 @@ int kms_state_light(hal_display_t *display, const drmModeConnector *connector)
         return failure;
     display->shown = newest;
     display->flying = display->waiting = KMS_NO_BUFFER;
-    display->dark = false;
+    display->dark = display->hangs = false;
     begin_blanks(display, kms_mode_period_ns(&connector->modes[mode]));
     return 0;
 }

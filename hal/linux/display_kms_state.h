@@ -35,6 +35,7 @@ struct hal_display {
     int status;        /**< file of the connector's state */
     int64_t looked_ns; /**< when it was read last */
     bool dark;         /**< nothing can be shown */
+    bool hangs;        /**< a wait had no answer, and none has come since */
     int64_t lit_ns;    /**< when lighting it was tried last */
 };
 

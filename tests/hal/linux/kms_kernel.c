@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel's part of a display, played for tests: it takes flips and lights, and answers when it is told to.
+// The kernel's part of a display, played for tests: it takes flips and lights, answers when it is told to, and its time
+// passes only while the display sleeps.
 #include "tests/hal/linux/kms_kernel.h"
 
 #include <setjmp.h>
@@ -10,7 +11,9 @@
 
 #include <drm.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 #include <xf86drm.h>
 
@@ -18,12 +21,38 @@
 #include "hal/linux/display_kms.h"
 #include "tests/support/scratch.h"
 
-static const int64_t PERIOD_NS = 16666667;
+static const int64_t PERIOD_NS = 16666667, SECOND_NS = 1000000000;
 
 kms_kernel_t kms_kernel;
 hal_display_t kms_display;
 
 static scratch_t scratch;
+
+int64_t clock_monotonic_ns(void)
+{
+    return kms_kernel.now_ns;
+}
+
+/* In place of the C library's. */
+int clock_nanosleep(clockid_t clock, int flags, const struct timespec *until, struct timespec *left)
+{
+    (void)left;
+    assert_int_equal(clock, CLOCK_MONOTONIC);
+    assert_int_equal(flags, TIMER_ABSTIME);
+    const int64_t until_ns = until->tv_sec * SECOND_NS + until->tv_nsec;
+    if (until_ns > kms_kernel.now_ns)
+        kms_kernel.now_ns = until_ns;
+    return 0;
+}
+
+int ppoll(struct pollfd *files, nfds_t count, const struct timespec *timeout, const sigset_t *mask)
+{
+    (void)mask;
+    const int ready = poll(files, count, 0);
+    if (ready == 0)
+        kms_kernel.now_ns += timeout->tv_sec * SECOND_NS + timeout->tv_nsec;
+    return ready;
+}
 
 void kms_kernel_answer(uint64_t token)
 {
@@ -31,8 +60,8 @@ void kms_kernel_answer(uint64_t token)
     const struct drm_event_vblank event = {
         .base = {DRM_EVENT_FLIP_COMPLETE, sizeof event},
         .user_data = token,
-        .tv_sec = (uint32_t)(kms_kernel.time_ns / 1000000000),
-        .tv_usec = (uint32_t)(kms_kernel.time_ns % 1000000000 / 1000),
+        .tv_sec = (uint32_t)(kms_kernel.time_ns / SECOND_NS),
+        .tv_usec = (uint32_t)(kms_kernel.time_ns % SECOND_NS / 1000),
         .sequence = ++kms_kernel.sequence,
     };
     assert_int_equal(write(kms_kernel.events[1], &event, sizeof event), sizeof event);
@@ -92,6 +121,10 @@ int drmCrtcQueueSequence(int card, uint32_t crtc, uint32_t flags, uint64_t seque
     assert_int_equal(flags, DRM_CRTC_SEQUENCE_RELATIVE);
     assert_int_equal(sequence, 1);
     kms_kernel.asked++;
+    if (kms_kernel.holds) {
+        kms_kernel.token = token;
+        return 0;
+    }
     const struct drm_event_crtc_sequence event = {
         .base = {DRM_EVENT_CRTC_SEQUENCE, sizeof event},
         .user_data = token,
@@ -145,6 +178,7 @@ int kms_kernel_set_up(void **state)
     (void)state;
     scratch_open(&scratch);
     memset(&kms_kernel, 0, sizeof kms_kernel);
+    kms_kernel.now_ns = 3600 * SECOND_NS;
     kms_kernel.blanks = kms_kernel.at_once = kms_kernel.master = true;
     kms_kernel.mode = (drmModeModeInfo){
         .clock = 1200, .hdisplay = KMS_KERNEL_WIDTH, .htotal = 200, .vdisplay = KMS_KERNEL_HEIGHT, .vtotal = 100};

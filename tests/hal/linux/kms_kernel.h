@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel's part of a display, played for tests: it takes flips and lights, and answers when it is told to.
+// The kernel's part of a display, played for tests: it takes flips and lights, answers when it is told to, and its time
+// passes only while the display sleeps.
 #ifndef TESTS_HAL_LINUX_KMS_KERNEL_H
 #define TESTS_HAL_LINUX_KMS_KERNEL_H
 
@@ -16,13 +17,15 @@ typedef struct {
     int32_t flips, lights, asked; /**< how many; asked: for a blank without a flip */
     bool darkened;                /**< since the last light */
     kms_scan_t flown, lit;        /**< the newest of each */
-    uint64_t token;               /**< of the newest flip */
+    uint64_t token;               /**< of the newest flip; with holds, or request for a blank */
     bool blanks;                  /**< the driver has vertical blanks */
     bool at_once;                 /**< each flip is answered as it comes */
+    bool holds;                   /**< requests for blanks are not */
     bool master;
     drmModeModeInfo mode; /**< the only one that is offered */
     int events[2];        /**< a pipe: what it writes, the display reads */
-    int64_t time_ns;      /**< of the last blank */
+    int64_t now_ns;
+    int64_t time_ns; /**< of the last blank */
     uint32_t sequence;
 } kms_kernel_t;
 

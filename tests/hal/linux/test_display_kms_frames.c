@@ -12,7 +12,8 @@
 #include <string.h>
 
 #include "hal/hal_display.h"
-#include "hal/linux/clocks.h"
+
+static const int64_t PATIENCE_NS = 100000000;
 
 static void each_picture_is_flown_and_awaited(void **state)
 {
@@ -38,7 +39,7 @@ static void a_blank_without_a_picture_is_awaited(void **state)
         assert_int_equal(kms_kernel.asked, i);
     }
     const int64_t next_us = hal_display_next_vblank_us(&kms_display);
-    assert_true(next_us > clock_monotonic_ns() / 1000 && next_us <= clock_monotonic_ns() / 1000 + 17000);
+    assert_true(next_us > kms_kernel.now_ns / 1000 && next_us <= kms_kernel.now_ns / 1000 + 17000);
 }
 
 /* The first is with the kernel already; of those after it the last is next, and none is shown twice. */
@@ -98,6 +99,50 @@ static void a_late_answer_counts_for_nothing_else(void **state)
     assert_int_equal(hal_display_wait_vblank(&kms_display), HAL_OK);
 }
 
+/* @return Of the next wait, after which there was no blank, in ns. */
+static int64_t time_without_blank(void)
+{
+    const int64_t begin_ns = kms_kernel.now_ns;
+    assert_int_equal(hal_display_wait_vblank(&kms_display), HAL_IO);
+    return kms_kernel.now_ns - begin_ns;
+}
+
+/* The pictures are all on their way, which the firmware tells as a fault, at the pace that its LED needs. */
+static void a_driver_that_hangs_keeps_the_pace(void **state)
+{
+    (void)state;
+    picture_t buffer;
+    kms_kernel.at_once = false;
+    kms_kernel_show(HAL_OK);
+    const uint64_t lost = kms_kernel.token;
+    assert_int_equal(time_without_blank(), PATIENCE_NS);
+    kms_kernel_show(HAL_OK);
+    for (int i = 0; i < 10; i++) {
+        const int64_t next_us = hal_display_next_vblank_us(&kms_display);
+        assert_int_equal(hal_display_back_buffer(&kms_display, PICTURE_XRGB8888, PICTURE_BT709, &buffer), HAL_FULL);
+        assert_true(time_without_blank() < 17000000);
+        assert_int_equal(kms_kernel.now_ns / 1000, next_us);
+    }
+    kms_kernel_answer(lost);
+    kms_kernel_show(HAL_OK);
+    kms_kernel_answer(kms_kernel.token);
+    assert_int_equal(hal_display_wait_vblank(&kms_display), HAL_OK);
+    assert_int_equal(time_without_blank(), PATIENCE_NS); /* of the last one */
+}
+
+/* One that is answered after its time is a sign of life: the next has as long as any. */
+static void a_driver_may_begin_late(void **state)
+{
+    (void)state;
+    kms_kernel.holds = true;
+    assert_int_equal(time_without_blank(), PATIENCE_NS);
+    assert_true(time_without_blank() < 17000000);
+    kms_kernel_answer(kms_kernel.token);
+    assert_int_equal(time_without_blank(), PATIENCE_NS);
+    kms_kernel.holds = false;
+    assert_int_equal(hal_display_wait_vblank(&kms_display), HAL_OK);
+}
+
 static void a_refused_picture_is_given_back(void **state)
 {
     (void)state;
@@ -144,7 +189,7 @@ static void without_blanks_the_clock_tells_them(void **state)
         if (i % 2 == 0)
             kms_kernel_show(HAL_OK);
         assert_int_equal(hal_display_wait_vblank(&kms_display), HAL_OK);
-        assert_true(clock_monotonic_ns() / 1000 >= next_us);
+        assert_int_equal(kms_kernel.now_ns / 1000, next_us);
     }
     assert_int_equal(kms_kernel.asked, 0);
     kms_kernel.at_once = false;
@@ -160,6 +205,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(the_last_picture_of_several_is_shown, kms_kernel_set_up, kms_kernel_tear_down),
         cmocka_unit_test_setup_teardown(a_picture_on_its_way_is_replaced, kms_kernel_set_up, kms_kernel_tear_down),
         cmocka_unit_test_setup_teardown(a_late_answer_counts_for_nothing_else, kms_kernel_set_up, kms_kernel_tear_down),
+        cmocka_unit_test_setup_teardown(a_driver_that_hangs_keeps_the_pace, kms_kernel_set_up, kms_kernel_tear_down),
+        cmocka_unit_test_setup_teardown(a_driver_may_begin_late, kms_kernel_set_up, kms_kernel_tear_down),
         cmocka_unit_test_setup_teardown(a_refused_picture_is_given_back, kms_kernel_set_up, kms_kernel_tear_down),
         cmocka_unit_test_setup_teardown(a_borrowed_buffer_stays_the_same, kms_kernel_set_up, kms_kernel_tear_down),
         cmocka_unit_test_setup_teardown(without_blanks_the_clock_tells_them, kms_kernel_set_up, kms_kernel_tear_down),
