@@ -33,20 +33,40 @@ static void begin_poses(void)
     bench.tracking = true;
 }
 
+static void damage(uint32_t ppm)
+{
+    sim_bus_fail(sim_world_bus(bench.world), SIM_BUS_CORRUPT, (sim_bus_fail_t){.ppm = ppm, .only = devices()->can});
+}
+
 static void damage_poses(void)
 {
-    sim_bus_fail(sim_world_bus(bench.world), SIM_BUS_CORRUPT, (sim_bus_fail_t){.ppm = 1000000, .only = devices()->can});
+    damage(1000000);
+}
+
+static void damage_some_poses(void)
+{
+    damage(200000);
 }
 
 static void mend_poses(void)
 {
-    sim_bus_fail(sim_world_bus(bench.world), SIM_BUS_CORRUPT, (sim_bus_fail_t){.ppm = 0});
+    damage(0);
+}
+
+static void flood_with(uint32_t id)
+{
+    const hal_can_frame_t frame = {.id = id, .length = 8};
+    assert_int_equal(sim_bus_fail_flood(sim_world_bus(bench.world), &frame), HAL_OK);
 }
 
 static void flood(void)
 {
-    const hal_can_frame_t frame = {.id = 0, .length = 8};
-    assert_int_equal(sim_bus_fail_flood(sim_world_bus(bench.world), &frame), HAL_OK);
+    flood_with(0);
+}
+
+static void flood_gaps(void)
+{
+    flood_with(0x7FF);
 }
 
 static void end_flood(void)
@@ -149,7 +169,9 @@ static const fault_t faults[] = {
     {"no pose for 0.1 s", stop_poses, begin_poses, 150, HOLDING_LED_MS},
     {"no pose for 1 s", stop_poses, begin_poses, 1100, 0},
     {"every pose is damaged", damage_poses, mend_poses, 1100, 0},
-    {"the bus is flooded", flood, end_flood, 8000, 0},
+    {"one pose in five is damaged or lost", damage_some_poses, mend_poses, 1100, 0},
+    {"the bus is flooded with what goes before poses", flood, end_flood, 8000, 0},
+    {"the bus is flooded with what goes after them", flood_gaps, end_flood, 8000, 0},
     {"the CAN driver fails", break_driver, mend_driver, 1100, 0},
     {"bus-off, left by itself", go_bus_off, nothing, 600, 0},
     {"no picture from the camera for 1 s", unplug_camera, plug_camera, 1100, 0},
