@@ -16,15 +16,23 @@ at_most() {
     ok "$1: $2 $3, expected at most $4" $?
 }
 
-# measured OPTION...: the firmware, its takings from the heap counted, with poses from can1 and a log of what it says.
+# measured OPTION...: the firmware, its takings from the heap and the pictures that it takes from its camera counted, with
+# poses from can1 and a log of what it says. Returns when all is settled: some pictures have been taken.
 measured() {
+    vm_run 'mountpoint -q /sys/kernel/tracing || mount -t tracefs trace /sys/kernel/tracing
+        cd /sys/kernel/tracing/events/v4l2/v4l2_dqbuf
+        echo !hist:keys=minor >trigger 2>/dev/null; echo hist:keys=minor >trigger'
     vm_run "candump -L can1,400:700,540:7C0,700:7C0 >/share/log & echo \$! >/share/logger
         /tree/$build/wallwarp-pose send --bus can1 still --rate 60 --at '0 -1200 -800 0.9375 0 0.34375 0' \
             --seconds 3600 >/dev/null 2>&1 & echo \$! >/share/sender
         sleep 0.5; date +%s%6N >/share/started
         HEAP_COUNTS=/tmp/heap LD_PRELOAD=/run/count_heap.so \
-            /run/wallwarp /share/room.yaml --node 1 --can can0 $* >/share/firmware 2>&1 & echo \$! >/share/pid
-        sleep 5"
+            /run/wallwarp /share/room.yaml --node 1 --can can0 $* >/share/firmware 2>&1 & echo \$! >/share/pid"
+    vm_run 'try=0; while [ $((try += 1)) -le 300 ] &&
+            [ "$(sed -n "s/^ *Hits: //p" /sys/kernel/tracing/events/v4l2/v4l2_dqbuf/hist)" -lt 50 ]; do
+            sleep 0.2
+        done
+        sleep 5'
 }
 
 measured_end() {
@@ -39,10 +47,11 @@ reported() {
     sed -n "s/^$1 //p" "$VM/reports"
 }
 
-# snapshot NAME: memory, threads and heap of the firmware now, and a new log of what it says.
+# snapshot NAME: memory, threads and heap of the firmware now, and the camera's pictures until now.
 snapshot() {
     vm_run "process=/proc/\$(cat /share/pid); cat \$process/task/*/status >/share/$1.tasks
-        tr '\\0' '\\n' </tmp/heap | grep . | sort -k2n >/share/$1.heap; cat \$process/smaps_rollup >/share/$1.memory"
+        tr '\\0' '\\n' </tmp/heap | grep . | sort -k2n >/share/$1.heap; cat \$process/smaps_rollup >/share/$1.memory
+        sed -n 's/^ *Hits: /taken /p' /sys/kernel/tracing/events/v4l2/v4l2_dqbuf/hist >/share/$1.camera"
 }
 
 # grown FILE_ENDING KEY: of the process between snapshots before and after, summed over its lines.
@@ -69,8 +78,7 @@ switches() {
 
 # trace SECONDS: the kernel's events of the sender's frames, of the strobe, and of flips that are done.
 trace() {
-    vm_run "mountpoint -q /sys/kernel/tracing || mount -t tracefs trace /sys/kernel/tracing
-        mountpoint -q /sys/kernel/debug || mount -t debugfs debug /sys/kernel/debug
+    vm_run "mountpoint -q /sys/kernel/debug || mount -t debugfs debug /sys/kernel/debug
         cd /sys/kernel/tracing && echo mono >trace_clock && echo 'name == \"can1\"' >events/net/net_dev_xmit/filter
         sed -n 's/.*GPIOs \\([0-9]*\\)-.* wallwarp,.*/\\1/p' /sys/kernel/debug/gpio >/share/first_line
         for event in net/net_dev_xmit gpio/gpio_value drm/drm_vblank_event_delivered; do echo 1 >events/\$event/enable; done

@@ -82,9 +82,10 @@ test_start() {
     no_faults "$what"
 }
 
-# many WHAT SECONDS FRAMES KB OPTION...: so long, in which there must be so many frames, memory grows by KB at most.
+# many WHAT SECONDS FRAMES KB OPTION...: so long, in which there must be so many frames and the camera's 500 pictures, and
+# memory grows by KB at most.
 many() {
-    local what=$1 seconds=$2 expected=$3 kb=$4 frames
+    local what=$1 seconds=$2 expected=$3 kb=$4 frames pictures
     shift 4
     measured "$@"
     snapshot before
@@ -96,6 +97,10 @@ many() {
     [ "${frames:-0}" -ge "$expected" ]
     ok "$what: $frames frames, expected $expected" $?
     row "$what: frames" "$frames" ""
+    pictures=$(grown camera taken)
+    [ "$pictures" -ge 500 ]
+    ok "$what: $pictures pictures of the camera, expected 500" $?
+    row "$what: pictures of the camera" "$pictures" ""
     memory_rows "$what" "$kb"
     heap_rows "$what"
     switch_rows "$what" "${frames:-1}"
@@ -109,7 +114,7 @@ test_many_frames() {
 
 test_libcamera() {
     write_room 156 120 64 48 121 none+nearest
-    many "64x48, libcamera" 20 1000 64 --camera libcamera:0
+    many "64x48, libcamera" 20 1000 0 --camera libcamera:0
 }
 
 trap vm_stop EXIT
