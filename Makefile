@@ -162,8 +162,8 @@ all: setup-$(if $(CROSS),board,demo) ## Build firmware and tools into build/host
 programs: $(PROGRAMS:%=$(BUILD)/%) ## Build them, and install nothing
 
 # Install what is missing, once: see board/setup.sh.
-.PHONY: setup-demo setup-test setup-bench setup-board
-setup-demo setup-test setup-bench setup-board:
+.PHONY: setup-demo setup-test setup-bench setup-board setup-flash
+setup-demo setup-test setup-bench setup-board setup-flash:
 	$(Q)board/setup.sh $(@:setup-%=%)
 
 build/sysroot.made: board/sysroot.sh
@@ -196,6 +196,14 @@ build/info/%: board/%/board.c board/%/info.c board/print_info.c board/board_info
     board/board_info.h hal/hal_board.h hal/hal_gpio.h
 	$(Q)mkdir -p $(@D)
 	$(Q)$(HOST_CC) -I. -std=c11 -Wall -Wextra -Werror -o $@ $(filter %.c,$^)
+
+# What a card gets is said on the command line: a desktop has a DISPLAY of its own. How: board/image/README.md.
+CARD  := DEV IMAGE NODE ROOM KEY CAN DISPLAY CAMERA YES
+given  = $(foreach n,$(1),$(if $(filter command,$(firstword $(origin $(n)))),'$(n)=$(subst ','\'',$($(n)))'))
+.PHONY: flash
+flash: setup-flash ## Write a board's card: make BOARD=rpi4 flash DEV=/dev/sdX NODE=3 ROOM=studio.yaml; lists disks without DEV
+	$(Q)env -u MAKEFLAGS $(MAKE) -s build/host/wallwarp
+	$(Q)env -u MAKEFLAGS board/image/flash.sh 'BOARD=$(BOARD)' $(call given,$(CARD))
 
 # --- tests ------------------------------------------------------------------------------------------------------------
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Installs the packages that this tree needs and this machine lacks: board/setup.sh [demo|test|bench|board]
+# Installs the packages that this tree needs and this machine lacks: board/setup.sh [demo|test|bench|board|flash]
 set -u
 
 packages_file=$(dirname "$0")/host/packages
@@ -51,7 +51,10 @@ go_on_without_apt() {
     test | bench) tools="$tools clang python3" ;;
     board) tools="$tools mmdebstrap aarch64-linux-gnu-g++ qemu-system-aarch64 modprobe cpio" ;;
     esac
-    [ "$group" != demo ] && tools="$tools aarch64-linux-gnu-gcc qemu-aarch64"
+    case $group in
+    test | bench | flash) tools="$tools bmaptool sfdisk mcopy mkfs.vfat debugfs mksquashfs xz" ;;
+    esac
+    [ "$group" != demo ] && [ "$group" != flash ] && tools="$tools aarch64-linux-gnu-gcc qemu-aarch64"
     [ "$group" = bench ] && tools="$tools llvm-objdump llvm-mca g++"
     for tool in $tools; do
         command -v "$tool" >/dev/null || fail "$tool is not here: install it and the others with this system's own tools"
@@ -78,13 +81,14 @@ install_packages() {
 }
 
 group=${1-test}
-[ $# -le 1 ] || fail "expected one argument at most: demo, test, bench or board"
+[ $# -le 1 ] || fail "expected one argument at most: demo, test, bench, board or flash"
 case $group in
 demo) needed=$(packages_of demo) ;;
-test) needed=$(packages_of demo arm test) ;;
-bench) needed=$(packages_of demo arm test bench) ;;
+test) needed=$(packages_of demo arm test flash) ;;
+bench) needed=$(packages_of demo arm test flash bench) ;;
 board) needed=$(packages_of demo arm board) ;;
-*) fail "unknown argument '$group', expected demo, test, bench or board" ;;
+flash) needed=$(packages_of demo flash) ;;
+*) fail "unknown argument '$group', expected demo, test, bench, board or flash" ;;
 esac
 [ -n "$needed" ] || fail "$packages_file lists no packages"
 

@@ -160,6 +160,15 @@ run board
 exits 0
 said 'setup: installing: qemu-user qemu-system-arm'
 
+name='root, cards'
+machine 0 none
+have_all_but qemu-user clang bmap-tools
+run flash
+exits 0
+said 'setup: installing: bmap-tools'
+! grep -q -e clang -e qemu "$folder/said"
+ok $? "$name: without the tests' packages"
+
 name='sudo without a password'
 machine 1000 free
 run demo
@@ -240,6 +249,12 @@ exits 1
 said 'clang is not here'
 
 name='no Debian, a benchmark tool missing'
+run flash
+exits 1
+said 'bmaptool is not here'
+for tool in bmaptool sfdisk mcopy mkfs.vfat debugfs mksquashfs xz; do make_tool $tool ''; done
+run flash
+exits 0
 for tool in clang aarch64-linux-gnu-gcc qemu-aarch64 python3 llvm-objdump llvm-mca; do make_tool $tool ''; done
 run test
 exits 0
@@ -267,10 +282,10 @@ name='wrong arguments'
 machine 0 none
 run everything
 exits 1
-said "unknown argument 'everything', expected demo, test, bench or board"
+said "unknown argument 'everything', expected demo, test, bench, board or flash"
 run demo test
 exits 1
-said 'expected one argument at most: demo, test, bench or board'
+said 'expected one argument at most: demo, test, bench, board or flash'
 did_nothing
 
 echo "$passed passed, $failed failed"

@@ -1,0 +1,394 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# `make flash`: what it writes, read with others' tools, and every refusal. Disks are files that a made-up lsblk calls
+# disks. Run it from the tree's root. usage: test_flash.sh BUILD
+# shellcheck disable=SC2016 # the made-up tools expand their own variables
+set -u
+export LC_ALL=C
+PATH=$PATH:/usr/sbin:/sbin
+root=$PWD
+flash=board/image/flash.sh
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+passed=0 failed=0 name=
+
+ok() {
+    if [ "$1" = 0 ]; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAILED: $name: $2"
+        sed 's/^/    said: /' "$folder/said"
+    fi
+}
+
+# --- a small image of the same partitions -----------------------------------------------------------------------------
+
+declare -A start=([card]=2048 [state]=76000 [kernel-a]=78048 [root-a]=80096 [kernel-b]=82144 [root-b]=84192 [data]=86240)
+declare -A size=([card]=73952 [state]=2048 [kernel-a]=2048 [root-a]=2048 [kernel-b]=2048 [root-b]=2048 [data]=16384)
+
+part_from_file() { dd if="$2" of="$folder/card.img" bs=512 seek="${start[$1]}" conv="notrunc${3-}" status=none; }
+part_to_file() { dd if="$1" of="$folder/part" bs=512 skip="${start[$2]}" count="${size[$2]}" status=none; }
+
+make_image() {
+    mkdir -p "$folder/root/etc/rauc"
+    printf '[system]\ncompatible=wallwarp-qemu-virt\n' >"$folder/root/etc/rauc/system.conf"
+    printf 'root:x:0:0::/:\nwallwarp:x:990:990::/:\n' >"$folder/root/etc/passwd"
+    mksquashfs "$folder/root" "$folder/root.squashfs" -quiet -no-progress >"$folder/said"
+    printf '# This board.\nnode: 1\n\nroom: /data/room.yaml\n\n# The key of the room.\n# key: room.key\n# can: can1\n# end\n' \
+        >"$folder/wallwarp.yaml"
+    touch -d @1000000000 "$folder/wallwarp.yaml"
+    truncate -s $((512 * size[card])) "$folder/card.fat"
+    mkfs.vfat -F 32 -s 1 -n CARD "$folder/card.fat" >"$folder/said"
+    mcopy -m -i "$folder/card.fat" "$folder/wallwarp.yaml" ::
+    truncate -s $((512 * size[data])) "$folder/data.ext4"
+    mke2fs -q -t ext4 "$folder/data.ext4"
+
+    truncate -s 51M "$folder/card.img"
+    {
+        echo 'label: gpt'
+        for part in card state kernel-a root-a kernel-b root-b data; do
+            echo "start=${start[$part]}, size=${size[$part]}, name=$part"
+        done
+    } | sfdisk -q "$folder/card.img"
+    part_from_file card "$folder/card.fat"
+    part_from_file root-a "$folder/root.squashfs"
+    part_from_file data "$folder/data.ext4" ,sparse
+    pack_image image
+}
+
+# The image, as `make image` leaves it, under another name.
+pack_image() {
+    bmaptool create -o "$folder/$1.img.bmap" "$folder/card.img" 2>"$folder/said"
+    xz -0 -c "$folder/card.img" >"$folder/$1.img.xz"
+}
+
+# --- disks ------------------------------------------------------------------------------------------------------------
+
+make_tool() {
+    printf '#!/bin/bash\n%s\n' "$2" >"$folder/bin/$1"
+    chmod +x "$folder/bin/$1"
+}
+
+# A disk of so many bytes is a file full of what was on it, beside a file with what lsblk knows of it.
+make_disk() {
+    head -c "$2" /dev/zero | tr '\0' '\245' >"$folder/$1"
+    printf '%s\n' TYPE=disk RO=0 "SIZE=$2" "MODEL=Card of a test" >"$folder/$1.lsblk"
+    echo "$folder/$1 disk" >"$folder/$1.tree"
+}
+
+tell_lsblk() { sed -i "s|^$2=.*|$2=$3|" "$folder/$1.lsblk"; }
+
+make_tools() {
+    mkdir "$folder/bin"
+    make_tool lsblk '
+        case $1 in
+        -dbno) [ -f "$3.lsblk" ] && sed -n "s/^$2=/ /p" "$3.lsblk" ;;
+        -nrpo) cat "$3.tree" ;;
+        -nsrpo) [ "$3" = /dev/root1 ] && cat '"$folder"'/system ;;
+        -dnrpo) for f in '"$folder"'/*.lsblk; do echo "${f%.lsblk}"; done ;;
+        *) echo "lsblk $*: not expected" >&2; exit 1 ;;
+        esac'
+    make_tool findmnt 'case $* in "-nvo SOURCE --target /") echo /dev/root1 ;; *) echo overlay ;; esac'
+    make_tool blockdev 'echo "blockdev $*" >>'"$folder"'/flushed; . '"$folder"'/on_flush'
+    : >"$folder/on_flush"
+    printf '/dev/root1\n%s\n' "$folder/system_disk" >"$folder/system"
+}
+
+run() {
+    PATH="$folder/bin:$PATH" "$flash" BOARD=qemu-virt IMAGE="$folder/image.img.xz" "$@" >"$folder/out" 2>"$folder/said" \
+        </dev/null
+    code=$?
+}
+
+said() {
+    grep -qF -e "$1" "$folder/said"
+    ok $? "says '$1'"
+}
+
+exits() {
+    [ "$code" = "$1" ]
+    ok $? "exit status $1, found $code"
+}
+
+# The last run ended with one line that says this, and left the disk or file as it was, and nothing else behind.
+refused() {
+    exits "$1"
+    said "$2"
+    [ "$(grep -vc 'flash: unpacking' "$folder/said")" = 1 ]
+    ok $? "refuses in one line"
+    [ ! -e "$folder/sdx" ] || cmp -s "$folder/sdx" "$folder/sdx.before"
+    ok $? "leaves the disk as it was"
+    [ ! -e "$folder/made.img" ]
+    ok $? "makes no file"
+    [ -z "$(find build -mindepth 2 2>/dev/null)" ]
+    ok $? "leaves nothing behind"
+}
+
+# --- what is written --------------------------------------------------------------------------------------------------
+
+settings_of() { mcopy -n -i "$1@@$((512 * start[card]))" ::wallwarp.yaml -; }
+data_of() { debugfs -R "$2" "$1?offset=$((512 * start[data]))" 2>/dev/null; }
+
+is_whole() {
+    part_to_file "$1" card && fsck.vfat -n "$folder/part" >"$folder/said" 2>&1
+    ok $? "the FAT file system is whole"
+    part_to_file "$1" data && e2fsck -fn "$folder/part" >"$folder/said" 2>&1
+    ok $? "the data partition is whole"
+    part_to_file "$1" root-a && cmp -s -n "$(stat -c %s "$folder/root.squashfs")" "$folder/part" "$folder/root.squashfs"
+    ok $? "the root slot is the image's"
+}
+
+# A tree of its own, whose build folder is nobody else's.
+mkdir -p "$folder/tree/build"
+ln -s "$root/board" "$root/sim" "$folder/tree"
+ln -s "$root/$1" "$folder/tree/build/host"
+cd "$folder/tree" || exit 1
+make_tools
+make_image
+(umask 077 && echo 000102030405060708090A0b0c0d0e0f >"$folder/room.key")
+
+name='a file, nothing but the image'
+run DEV="$folder/card1.img"
+exits 0
+cmp -s "$folder/card1.img" "$folder/card.img"
+ok $? 'the same bytes'
+[ "$(stat -c %a "$folder/card1.img")" = 600 ]
+ok $? 'nobody else may read it'
+
+name='a disk that was full of something else, all settings'
+make_disk sdx 60000000
+run DEV="$folder/sdx" NODE=3 ROOM=sim/demo/room.yaml KEY="$folder/room.key" CAN=can1 DISPLAY="it's" \
+    CAMERA='libcamera:\_SB_.PCI "0"' YES=1
+exits 0
+said "flash: $folder/sdx: Card of a test, 57.3MiB"
+said 'flash: wallwarp-qemu-virt, node 3, room sim/demo/room.yaml'
+is_whole "$folder/sdx"
+settings_of "$folder/sdx" >"$folder/settings"
+diff - "$folder/settings" >"$folder/said" <<'END'
+# This board.
+node: 3
+
+room: /data/room.yaml
+
+# The key of the room.
+key: /data/room.key
+can: 'can1'
+# end
+display: 'it''s'
+camera: 'libcamera:\_SB_.PCI "0"'
+END
+ok $? 'the settings are those asked for, the rest of the file is as it was'
+data_of "$folder/sdx" 'cat room.yaml' | cmp -s - sim/demo/room.yaml
+ok $? 'the room file is on the data partition'
+data_of "$folder/sdx" 'cat room.key' | cmp -s - "$folder/room.key"
+ok $? 'so is the key'
+data_of "$folder/sdx" 'stat room.key' >"$folder/said"
+grep -q 'Type: regular *Mode: *0600 ' "$folder/said" && grep -q 'User: *990 ' "$folder/said"
+ok $? 'the key is of the user wallwarp alone'
+data_of "$folder/sdx" 'stat room.yaml' >"$folder/said"
+grep -q 'Type: regular *Mode: *0644 ' "$folder/said" && grep -q 'User: *0 *Group: *0 ' "$folder/said"
+ok $? 'the room is for all to read'
+grep -q "^blockdev --flushbufs $folder/sdx$" "$folder/flushed"
+ok $? 'what is compared comes from the disk'
+
+name='two cards of a room'
+run DEV="$folder/card1.img" NODE=1 ROOM=sim/demo/room.yaml KEY="$folder/room.key"
+exits 0
+sleep 1.1 # were there a time in it, it would be another one
+run DEV="$folder/card2.img" NODE=2 ROOM=sim/demo/room.yaml KEY="$folder/room.key"
+exits 0
+[ "$(cmp -l "$folder/card1.img" "$folder/card2.img" | awk '{print $2, $3}')" = '61 62' ]
+ok $? 'differ in the digit of the node, and in no other byte'
+
+# --- what is refused --------------------------------------------------------------------------------------------------
+
+cp "$folder/sdx" "$folder/sdx.before"
+disk=$folder/sdx
+
+name='no disk named'
+make_disk system_disk 60000
+make_disk locked 60000000
+tell_lsblk locked RO 1
+run
+exits 2
+said 'expected DEV=, one of these disks'
+[ "$(cat "$folder/out")" = "  DEV=$disk  Card of a test, 57.3MiB" ]
+ok $? "lists the free disk alone: $(cat "$folder/out")"
+tell_lsblk sdx RO 1
+run
+exits 2
+grep -q 'none is here that is not in use' "$folder/out"
+ok $? 'says that there is none'
+tell_lsblk sdx RO 0
+
+name='device'
+run DEV="$disk"
+refused 1 "DEV=$disk: nobody can be asked without a terminal, expected YES=1"
+run DEV=/dev/no-such-disk YES=1
+refused 1 'DEV=/dev/no-such-disk: is not there, expected a disk'
+run DEV="$folder/system_disk" YES=1
+refused 1 "DEV=$folder/system_disk: holds / of this system, expected another disk"
+tell_lsblk sdx RO 1
+run DEV="$disk" YES=1
+refused 1 "DEV=$disk: is read-only, expected a disk to write"
+tell_lsblk sdx RO 0
+tell_lsblk sdx SIZE 0
+run DEV="$disk" YES=1
+refused 1 "DEV=$disk: has no size, expected a card in the reader"
+tell_lsblk sdx SIZE 53477375
+run DEV="$disk" YES=1
+refused 1 "DEV=$disk: has 53477375 bytes, expected 53477376 or more for this image"
+tell_lsblk sdx SIZE 60000000
+printf '%s1 part /media/card\\x0a/mnt\n' "$disk" >>"$disk.tree"
+run DEV="$disk" YES=1
+refused 1 "DEV=$disk: ${disk}1 is mounted on /media/card, /mnt, expected a disk that is not in use"
+printf '%s disk\n%s1 part\nvg-home lvm\n' "$disk" "$disk" >"$disk.tree"
+run DEV="$disk" YES=1
+refused 1 "DEV=$disk: vg-home (lvm) is made of it, expected a disk that is not in use"
+printf '%s disk\n%s1 part\n' "$disk" "$disk" >"$disk.tree"
+tell_lsblk sdx TYPE part
+echo PKNAME=sdw >>"$disk.lsblk"
+run DEV="$disk" YES=1
+refused 1 "DEV=$disk: is a partition, expected the whole disk, /dev/sdw"
+tell_lsblk sdx TYPE rom
+run DEV="$disk" YES=1
+refused 1 "DEV=$disk: is of type rom, expected a disk"
+tell_lsblk sdx TYPE disk
+
+name='a question on a terminal'
+ask() {
+    echo "$1" | PATH="$folder/bin:$PATH" script -qec "$flash BOARD=qemu-virt IMAGE=$folder/image.img.xz DEV=$disk NODE=2" \
+        "$folder/typescript" >"$folder/said" 2>&1
+    code=$?
+}
+ask y
+exits 1
+said "$disk: Card of a test, 57.3MiB"
+said 'Type yes to go on'
+said 'nothing was written'
+cmp -s "$disk" "$disk.before"
+ok $? 'another answer than yes leaves the disk as it was'
+ask yes
+exits 0
+[ "$(settings_of "$disk" | grep -c '^node: 2$')" = 1 ]
+ok $? 'yes writes'
+cp "$disk" "$disk.before"
+
+name='a disk that reads back otherwise'
+echo 'printf x | dd of='"$disk"' bs=1 seek='$((512 * start[card] + 100))' conv=notrunc status=none' >"$folder/on_flush"
+run DEV="$disk" YES=1
+exits 1
+said "DEV=$disk: reads back otherwise than it was written, from byte"
+: >"$folder/on_flush"
+cp "$disk.before" "$disk"
+
+name='a disk that cannot be written'
+make_tool bmaptool '[ "${*: -1}" = '"$disk"' ] && { echo "bmaptool: ERROR: no" >&2; exit 1; }; exec /usr/bin/bmaptool "$@"'
+run DEV="$disk" YES=1
+exits 1
+said "DEV=$disk: was not written whole, expected a good disk that nobody else uses"
+rm "$folder/bin/bmaptool"
+
+name='plain file'
+run DEV="$folder/no/made.img"
+refused 1 "DEV=$folder/no/made.img: has no folder, expected a file in one, or a disk"
+run DEV="$folder"
+refused 1 "DEV=$folder: is neither a disk nor a plain file"
+run DEV=sim/demo/room.yaml NODE=1 ROOM=sim/demo/room.yaml
+refused 1 'DEV=sim/demo/room.yaml: is what is to be written'
+
+name='settings'
+dev="DEV=$folder/made.img"
+run "$dev" NODE=5 ROOM=sim/demo/room.yaml
+refused 1 'room: sim/demo/room.yaml: no board has node 5'
+run "$dev" NODE=64
+refused 1 'node: found 64, expected 1 to 63'
+run "$dev" NODE=two
+refused 1 "node: found 'two', expected a whole number"
+run "$dev" ROOM=sim/demo/room.yaml
+refused 2 'ROOM=sim/demo/room.yaml: expected NODE= with it'
+run "$dev" NODE=1 ROOM="$folder/none.yaml"
+refused 1 "room: $folder/none.yaml"
+sed 's/^boards:/board:/' sim/demo/room.yaml >"$folder/broken.yaml"
+run "$dev" NODE=1 ROOM="$folder/broken.yaml"
+refused 1 "room: $folder/broken.yaml:"
+head -c 31 "$folder/room.key" >"$folder/short.key"
+chmod 600 "$folder/short.key"
+run "$dev" KEY="$folder/short.key"
+refused 1 "key: $folder/short.key: is no key, expected 32 hexadecimal digits"
+chmod 644 "$folder/short.key"
+run "$dev" KEY="$folder/short.key"
+refused 1 "key: $folder/short.key: has mode 0644"
+run "$dev" CAN="$(printf 'can0\ncan1')"
+refused 2 'CAN=: holds a line end or another control character, expected a name'
+run "$dev" DISK=1
+refused 2 'found "DISK=1", expected BOARD='
+
+name='image'
+wrong() {
+    PATH="$folder/bin:$PATH" "$flash" BOARD="$1" IMAGE="$folder/$2.img.xz" "$dev" >"$folder/out" 2>"$folder/said" </dev/null
+    code=$?
+}
+wrong rpi4 image
+refused 1 "$folder/image.img.xz: is for \"wallwarp-qemu-virt\", expected \"wallwarp-rpi4\" (BOARD=rpi4)"
+wrong host image
+refused 2 'BOARD=host: expected a board that has an image'
+wrong rpi5x image
+refused 2 'BOARD=rpi5x: expected a board that has an image'
+wrong qemu-virt none
+refused 1 "$folder/none.img.xz: cannot be read, expected an image with its block map beside it"
+cp "$folder/image.img.xz" "$folder/bare.img.xz"
+wrong qemu-virt bare
+refused 1 "$folder/bare.img.bmap: cannot be read, expected an image with its block map beside it"
+cp "$folder/image.img.bmap" "$folder/cut.img.bmap"
+head -c $(($(stat -c %s "$folder/image.img.xz") / 2)) "$folder/image.img.xz" >"$folder/cut.img.xz"
+wrong qemu-virt cut
+refused 1 "$folder/cut.img.xz: is not what $folder/cut.img.bmap says, expected both of one build"
+cp "$folder/image.img.bmap" "$folder/other.img.bmap"
+cp "$folder/card.img" "$folder/card.img.before"
+printf x | dd of="$folder/card.img" bs=1 seek=$((512 * ${start[root-a]} + 300)) conv=notrunc status=none
+xz -0 -c "$folder/card.img" >"$folder/other.img.xz"
+wrong qemu-virt other
+refused 1 "$folder/other.img.xz: is not what $folder/other.img.bmap says"
+cp "$folder/card.img.before" "$folder/card.img"
+sed 's/<BlocksCount>/<BlocksCount> /' "$folder/image.img.bmap" >"$folder/edited.img.bmap"
+cp "$folder/image.img.xz" "$folder/edited.img.xz"
+wrong qemu-virt edited
+refused 1 "$folder/edited.img.xz: is not what $folder/edited.img.bmap says"
+sfdisk -q --part-label "$folder/card.img" 7 rest
+pack_image no-data
+wrong qemu-virt no-data
+refused 1 "$folder/no-data.img.xz: has no partition \"data\", expected an image of"
+cp "$folder/card.img.before" "$folder/card.img"
+head -c $((512 * size[data] - 1000000)) /dev/urandom >"$folder/much"
+printf 'write %s much\n' "$folder/much" | debugfs -w -f - "$folder/card.img?offset=$((512 * start[data]))" >"$folder/said" 2>&1
+pack_image full
+{ cat sim/demo/room.yaml && yes '#' | head -c 4000000; } >"$folder/long.yaml"
+PATH="$folder/bin:$PATH" "$flash" BOARD=qemu-virt IMAGE="$folder/full.img.xz" NODE=1 ROOM="$folder/long.yaml" "$dev" \
+    >"$folder/out" 2>"$folder/said" </dev/null
+code=$?
+refused 1 "$folder/full.img.xz: $folder/long.yaml does not fit onto its partition \"data\""
+
+# --- make -------------------------------------------------------------------------------------------------------------
+
+name='make flash, no image yet'
+make_tool make 'echo "make $*" >>'"$folder"'/made
+    for end in xz bmap; do cp '"$folder"'/image.img.$end build/qemu-virt/wallwarp-qemu-virt.img.$end; done'
+for time in first second; do
+    PATH="$folder/bin:$PATH" "$flash" BOARD=qemu-virt DEV="$folder/$time.img" >"$folder/out" 2>"$folder/said" </dev/null
+    code=$?
+    exits 0
+    cmp -s "$folder/$time.img" "$folder/card.img.before"
+    ok $? "the $time time: writes the image"
+done
+[ "$(cat "$folder/made")" = 'make --no-print-directory BOARD=qemu-virt image' ]
+ok $? 'the image is made, once'
+
+name='make flash'
+DISPLAY=:0 KEY=no NODE=9 make -C "$root" -n BOARD=qemu-virt flash DEV="my card.img" CAN=can1 >"$folder/said" 2>&1
+grep -q "board/image/flash.sh 'BOARD=qemu-virt' 'DEV=my card.img' *'CAN=can1' *\$" "$folder/said"
+ok $? 'takes what is on its command line, and not the variables of a desktop'
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
