@@ -44,14 +44,10 @@ column_of() {
     lsblk -dbno "$1" "$2" 2>/dev/null | sed 's/^ *//; s/ *$//' || true
 }
 
-size_text() {
-    numfmt --to=iec-i --suffix=B --format=%.1f "$1"
-}
-
 described() {
     local model
     model=$(column_of MODEL "$1")
-    echo "${model:-a disk without a model name}, $(size_text "$(column_of SIZE "$1")")"
+    echo "${model:-a disk without a model name}, $(column_of SIZE "$1" | numfmt --to=iec-i --suffix=B --format=%.1f)"
 }
 
 # Where a disk, or one of what is on it, is mounted or otherwise in use; empty: nowhere.
@@ -88,8 +84,7 @@ check_disk() {
     [ -z "$found" ] || fail "DEV=$disk: $found, expected a disk that is not in use (umount it)"
     found=$(column_of SIZE "$disk")
     [ "$found" -gt 0 ] || fail "DEV=$disk: has no size, expected a card in the reader"
-    [ "$found" -ge "$least" ] ||
-        fail "DEV=$disk: has $found bytes, expected $least or more for this image"
+    [ "$found" -ge "$least" ] || fail "DEV=$disk: has $found bytes, expected $least or more for this image"
     [ "$(column_of RO "$disk")" = 0 ] || fail "DEV=$disk: is read-only, expected a disk to write (the card's lock?)"
 }
 
@@ -167,7 +162,7 @@ check_by_firmware() {
     shift
     said=$(build/host/wallwarp --check "$@" 2>&1 || true)
     grep -q "^found *$part: " <<<"$said" && return
-    grep "^missing *$part: " <<<"$said" >"$stage/log" || tail -n 1 <<<"$said" >"$stage/log"
+    grep "^missing *$part: " <<<"$said" >"$stage/log" || head -n 1 <<<"$said" >"$stage/log"
     fail "$(sed 's/^missing *//' "$stage/log")"
 }
 
@@ -220,39 +215,19 @@ put_settings() {
 ask() {
     local answer
     [ "$yes" != 1 ] || return 0
-    read -r -p "flash: everything on it will be lost. Type yes to go on: " answer
+    read -r -p "flash: everything on it will be lost. Type yes to go on: " answer || true
     [ "$answer" = yes ] || fail "nothing was written"
 }
 
-# Each mapped part of the copy, as its bmap names it, once more from the disk.
-read_back() {
-    local sum first last parts=0 count block
-    block=$(sed -n 's/.*<BlockSize> *\([0-9]*\).*/\1/p' "$stage/bmap")
-    count=$(grep -c '<Range' "$stage/bmap")
-    while read -r sum first last; do
-        parts=$((parts + 1))
-        [ ! -t 2 ] || printf '\rflash: reading back, part %d of %d ' "$parts" "$count" >&2
-        "${as_root[@]}" dd if="$dev" iflag=skip_bytes,count_bytes bs=1M skip=$((block * first)) \
-            count=$((block * (last - first + 1))) status=none | sha256sum | grep -q "^$sum " ||
-            fail "DEV=$dev: reads back otherwise than it was written, from byte $((block * first)): expected a good disk"
-    done < <(sed -n 's/.*<Range chksum="\([0-9a-f]*\)"> *\([0-9]*\)-\?\([0-9]*\) .*/\1 \2 \3/p' "$stage/bmap" |
-        awk '{print $1, $2, $3 == "" ? $2 : $3}')
-    [ ! -t 2 ] || echo >&2
-    [[ $parts = "$count" && $count -gt 0 ]] || fail "$stage/bmap: $parts of $count parts read, expected all"
-}
-
 write_card() {
-    as_root=()
-    if [ "$kind" = disk ]; then
-        [ -w "$dev" ] || as_root=(sudo)
-    else
+    local as_root=()
+    if [ "$kind" != disk ]; then
         install -m 600 /dev/null "$dev" # the key may be in it
+    elif [ ! -w "$dev" ]; then
+        as_root=(sudo)
     fi
     bmaptool create -o "$stage/bmap" "$copy" >"$stage/log" 2>&1 || fail "$copy: $(tail -n 1 "$stage/log")"
-    "${as_root[@]}" bmaptool copy --bmap "$stage/bmap" "$copy" "$dev" ||
-        fail "DEV=$dev: was not written whole, expected a good disk that nobody else uses"
-    [ "$kind" != disk ] || "${as_root[@]}" blockdev --flushbufs "$dev" # so that not memory is read, but the card
-    read_back
+    "${as_root[@]}" flock "$dev" "$(dirname "$0")/write_card.sh" "$copy" "$stage/bmap" "$dev" || exit 1
 }
 
 # --- in order ---------------------------------------------------------------------------------------------------------
@@ -263,6 +238,8 @@ if [ -z "$dev" ]; then
 fi
 [[ $board != host && -f board/$board/board.mk ]] || usage "BOARD=$board: expected a board that has an image, as rpi4"
 [ -z "$room" ] || [ -n "$node" ] || usage "ROOM=$room: expected NODE= with it, the board's number in the room file"
+own=build/$board/wallwarp-$board.img.xz
+image=${image:-$own}
 
 kind='plain file'
 [ -z "$(column_of TYPE "$dev")" ] || kind=disk
@@ -284,10 +261,7 @@ stage=$(mktemp -d "build/$board/flash.XXXXXX")
 [ -z "$room" ] || check_by_firmware room "$room" --node "$node"
 [ -z "$key" ] || check_by_firmware key --key "$key"
 
-if [ -z "$image" ]; then
-    image=build/$board/wallwarp-$board.img.xz
-    [ -e "$image" ] || make --no-print-directory BOARD="$board" image
-fi
+[[ -e $image || $image != "$own" ]] || make --no-print-directory BOARD="$board" image
 bmap=${image%.xz}.bmap
 for file in "$image" "$bmap"; do
     [[ -f $file && -r $file ]] || fail "$file: cannot be read, expected an image with its block map beside it"
@@ -299,8 +273,8 @@ unpack_image
 make_settings
 put_settings
 
-say "$dev: $(if [ "$kind" = disk ]; then described "$dev"; else echo "a plain file"; fi)"
+say "$dev: $(if [ "$kind" = disk ]; then described "$dev"; else echo "a $kind"; fi)"
 say "wallwarp-$board${node:+, node $node}${room:+, room $room}${key:+, key $key}"
 [ "$kind" != disk ] || ask
 write_card
-say "done: $dev is a card for $board${node:+, node $node}; take it out"
+say "done: $dev is a card for $board${node:+, node $node}; eject it"

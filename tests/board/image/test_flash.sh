@@ -90,7 +90,7 @@ make_tools() {
         *) echo "lsblk $*: not expected" >&2; exit 1 ;;
         esac'
     make_tool findmnt 'case $* in "-nvo SOURCE --target /") echo /dev/root1 ;; *) echo overlay ;; esac'
-    make_tool blockdev 'echo "blockdev $*" >>'"$folder"'/flushed; . '"$folder"'/on_flush'
+    make_tool blockdev 'echo "blockdev $*, $(flock -n "$2" echo not) locked" >>'"$folder"'/flushed; . '"$folder"'/on_flush'
     : >"$folder/on_flush"
     printf '/dev/root1\n%s\n' "$folder/system_disk" >"$folder/system"
 }
@@ -189,8 +189,8 @@ ok $? 'the key is of the user wallwarp alone'
 data_of "$folder/sdx" 'stat room.yaml' >"$folder/said"
 grep -q 'Type: regular *Mode: *0644 ' "$folder/said" && grep -q 'User: *0 *Group: *0 ' "$folder/said"
 ok $? 'the room is for all to read'
-grep -q "^blockdev --flushbufs $folder/sdx$" "$folder/flushed"
-ok $? 'what is compared comes from the disk'
+grep -q "^blockdev --flushbufs $folder/sdx,  locked$" "$folder/flushed"
+ok $? 'what is compared comes from the disk, and nobody else has it'
 
 name='two cards of a room'
 run DEV="$folder/card1.img" NODE=1 ROOM=sim/demo/room.yaml KEY="$folder/room.key"
@@ -302,6 +302,8 @@ name='settings'
 dev="DEV=$folder/made.img"
 run "$dev" NODE=5 ROOM=sim/demo/room.yaml
 refused 1 'room: sim/demo/room.yaml: no board has node 5'
+run "$dev" NODE=64 ROOM=sim/demo/room.yaml
+refused 1 'found "64", expected 1 to 63'
 run "$dev" NODE=64
 refused 1 'node: found 64, expected 1 to 63'
 run "$dev" NODE=two
