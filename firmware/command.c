@@ -7,7 +7,15 @@
 #include "firmware/byte_order.h"
 
 static const char reboot_text[] = "reboot";
-enum { REBOOT_LENGTH = sizeof reboot_text - 1, NUMBER_LENGTH = 4, SESSION_LENGTH = 16, TIME_BITS = 48 };
+enum {
+    REBOOT_LENGTH = sizeof reboot_text - 1,
+    NUMBER_LENGTH = 4,
+    TIME_LENGTH = 8,
+    SESSION_LENGTH = 16,
+    TIME_BITS = 48
+};
+
+_Static_assert((int)HAL_UPDATE_SOURCE_LENGTH + TIME_LENGTH + 2 <= (int)COMMAND_MAX_BYTES, "a source and a code fit");
 
 static int put_text(uint8_t *bytes, const char *text)
 {
@@ -20,6 +28,18 @@ static int put_number(uint8_t *bytes, uint32_t number)
 {
     put_u32(bytes, number);
     return NUMBER_LENGTH;
+}
+
+static int put_update(uint8_t *values, const command_t *command)
+{
+    values[0] = (uint8_t)command->update;
+    if (command->update == COMMAND_UPDATE_INSTALL)
+        return 1 + put_text(values + 1, command->text);
+    if (command->update != COMMAND_UPDATE_SWITCH && command->update != COMMAND_UPDATE_CONFIRM)
+        return 1;
+    put_u64(values + 1, command->bus_time_us);
+    return 1 + TIME_LENGTH +
+           (command->update == COMMAND_UPDATE_SWITCH ? put_text(values + 1 + TIME_LENGTH, command->text) : 0);
 }
 
 int command_encode(uint8_t bytes[COMMAND_MAX_BYTES], const command_t *command)
@@ -45,6 +65,8 @@ int command_encode(uint8_t bytes[COMMAND_MAX_BYTES], const command_t *command)
         put_u64(values, command->session);
         put_u64(values + 8, command->bus_time_us);
         return 1 + SESSION_LENGTH;
+    case COMMAND_UPDATE:
+        return 1 + put_update(values, command);
     case COMMAND_HELLO:
     case COMMAND_NONCE:
         break;
@@ -77,13 +99,54 @@ static command_result_t read_number(uint32_t *value, const uint8_t *bytes, int l
     return COMMAND_OK;
 }
 
+static command_result_t read_time(uint64_t *bus_time_us, const uint8_t *bytes, int length)
+{
+    if (length != TIME_LENGTH || get_u64(bytes) >> TIME_BITS != 0)
+        return COMMAND_BAD_VALUE;
+    *bus_time_us = get_u64(bytes);
+    return COMMAND_OK;
+}
+
 static command_result_t read_session(command_t *command, const uint8_t *bytes, int length)
 {
-    if (length != SESSION_LENGTH || get_u64(bytes + 8) >> TIME_BITS != 0)
+    if (length != SESSION_LENGTH)
         return COMMAND_BAD_VALUE;
     command->session = get_u64(bytes);
-    command->bus_time_us = get_u64(bytes + 8);
-    return COMMAND_OK;
+    return read_time(&command->bus_time_us, bytes + 8, TIME_LENGTH);
+}
+
+static command_result_t read_word(char *text, const uint8_t *bytes, int length, bool (*is_one)(const char *text))
+{
+    if (length < 0 || length >= HAL_UPDATE_SOURCE_LENGTH)
+        return COMMAND_BAD_VALUE;
+    memcpy(text, bytes, (size_t)length);
+    text[length] = '\0';
+    return strlen(text) == (size_t)length && is_one(text) ? COMMAND_OK : COMMAND_BAD_VALUE;
+}
+
+static command_result_t read_update(command_t *command, const uint8_t *bytes, int length)
+{
+    const uint8_t *values = bytes + 1;
+    if (length < 1)
+        return COMMAND_BAD_VALUE;
+    command->update = (command_update_t)bytes[0];
+    switch (command->update) {
+    case COMMAND_UPDATE_STATUS:
+    case COMMAND_UPDATE_CANCEL:
+        return length == 1 ? COMMAND_OK : COMMAND_BAD_VALUE;
+    case COMMAND_UPDATE_INSTALL:
+        return read_word(command->text, values, length - 1, hal_update_is_source);
+    case COMMAND_UPDATE_CONFIRM:
+        return read_time(&command->bus_time_us, values, length - 1);
+    case COMMAND_UPDATE_SWITCH:
+        if (length <= 1 + TIME_LENGTH || read_word(command->text, values + TIME_LENGTH, length - 1 - TIME_LENGTH,
+                                                   hal_update_is_version) != COMMAND_OK)
+            return COMMAND_BAD_VALUE;
+        return read_time(&command->bus_time_us, values, TIME_LENGTH);
+    case COMMAND_UPDATES:
+        break;
+    }
+    return COMMAND_BAD_VALUE;
 }
 
 static command_result_t read_values(command_t *command, const uint8_t *values, int length)
@@ -93,6 +156,8 @@ static command_result_t read_values(command_t *command, const uint8_t *values, i
     switch (command->kind) {
     case COMMAND_SESSION:
         return read_session(command, values, length);
+    case COMMAND_UPDATE:
+        return read_update(command, values, length);
     case COMMAND_HELLO:
     case COMMAND_NONCE:
         return length == 0 ? COMMAND_OK : COMMAND_BAD_VALUE;
@@ -140,6 +205,8 @@ uint8_t command_argument(const command_t *command)
         return (uint8_t)command->pattern;
     case COMMAND_LATENCY:
         return (uint8_t)(command->latency_us / 1000);
+    case COMMAND_UPDATE:
+        return (uint8_t)command->update;
     case COMMAND_HELLO:
     case COMMAND_REBOOT:
     case COMMAND_LOG:

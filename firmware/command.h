@@ -17,6 +17,11 @@
 // | 7 log: first event (4)             | first event (4), then EVENT_BYTES for each, up to 50           |
 // | 8 nonce                            | a random number (8), for one request within 2 s                |
 // | 9 session (8), bus time in us (8)  |                                                                |
+// | 10 update: command_update_t (1)    | how its update stands (update_status.h); impossible:           |
+// |                                    | update_refusal_t (1)                                           |
+//
+// Behind command_update_t: install: the source as text (hal_update.h); switch: the moment in bus time, us (8), and the
+// version as text; confirm: that moment (8). What they do: update.h.
 //
 // A board without a key does not know 8 and 9. A board with one wants 8 bytes more behind every request but `nonce`:
 // its code (can_auth.h). The number in it is used up by the request, whatever comes of it; a board keeps one, and gives
@@ -28,12 +33,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "hal/hal_update.h"
 #include "warp_fixed/method.h"
 
 enum {
     CAN_ID_COMMAND = 0x600,   /**< + node: ISO-TP frames to a board */
     CAN_ID_REPLY = 0x640,     /**< + node: and from it */
-    COMMAND_MAX_BYTES = 64,   /**< of a request, with its code */
+    COMMAND_MAX_BYTES = 256,  /**< of a request, with its code */
     COMMAND_REPLY_FLAG = 128, /**< in a reply's number */
     COMMAND_REPLY_BYTES = 512,
     COMMAND_MOST_EVENTS = 50,
@@ -50,7 +56,8 @@ typedef enum {
     COMMAND_REBOOT = 6,
     COMMAND_LOG = 7,
     COMMAND_NONCE = 8,
-    COMMAND_SESSION = 9
+    COMMAND_SESSION = 9,
+    COMMAND_UPDATE = 10
 } command_kind_t;
 
 typedef enum {
@@ -70,6 +77,16 @@ typedef enum {
     COMMAND_PATTERNS
 } command_pattern_t;
 
+/** What about the update of a board. */
+typedef enum {
+    COMMAND_UPDATE_STATUS = 0,
+    COMMAND_UPDATE_INSTALL = 1,
+    COMMAND_UPDATE_SWITCH = 2, /**< to a version at a moment, once that is confirmed */
+    COMMAND_UPDATE_CONFIRM = 3,
+    COMMAND_UPDATE_CANCEL = 4, /**< the switch that is to come */
+    COMMAND_UPDATES
+} command_update_t;
+
 typedef struct {
     command_kind_t kind;
     const warp_method_t *method; /**< COMMAND_METHOD: NULL is the room's own */
@@ -78,7 +95,9 @@ typedef struct {
     uint32_t latency_us; /**< up to COMMAND_MOST_LATENCY_US; see frame_latency.h */
     uint32_t first_event;
     uint64_t session;     /**< COMMAND_SESSION */
-    uint64_t bus_time_us; /**< when it begins, less than 2^48 */
+    uint64_t bus_time_us; /**< when it begins; COMMAND_UPDATE: when to switch; less than 2^48 */
+    command_update_t update;
+    char text[HAL_UPDATE_SOURCE_LENGTH]; /**< COMMAND_UPDATE: source of an install, or version of a switch */
 } command_t;
 
 /** @return Bytes of the request. */
@@ -94,7 +113,8 @@ command_result_t command_decode(command_t *command, const uint8_t *bytes, int le
 
 /**
  * @return What a request asks for as a small number, for the log. Method: 16 times its filter and its resampler, or
- *         COMMAND_ROOM_METHOD; freeze: 1 or 0; pattern: which; latency: whole milliseconds; else 0.
+ *         COMMAND_ROOM_METHOD; freeze: 1 or 0; pattern: which; latency: whole milliseconds; update: command_update_t;
+ * else 0.
  */
 uint8_t command_argument(const command_t *command);
 

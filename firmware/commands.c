@@ -7,11 +7,13 @@
 #include "firmware/byte_order.h"
 #include "firmware/frame_latency.h"
 #include "firmware/projector.h"
+#include "firmware/update_status.h"
 #include "firmware/version.h"
 
 enum { HEADER_BYTES = 2, NUMBER_BYTES = 4, NONCE_BYTES = 8, LOG_BYTES = HEADER_BYTES + NUMBER_BYTES };
 
 _Static_assert(LOG_BYTES + COMMAND_MOST_EVENTS * EVENT_BYTES <= COMMAND_REPLY_BYTES, "a reply holds these events");
+_Static_assert(HEADER_BYTES + (int)UPDATE_STATUS_BYTES <= (int)COMMAND_REPLY_BYTES, "and how an update stands");
 _Static_assert((int)COMMAND_REPLY_BYTES <= (int)ISOTP_MAX_LENGTH, "a reply is one message");
 
 void commands_init(commands_t *commands, int32_t node, int32_t latency_ms)
@@ -69,6 +71,9 @@ static command_result_t execute(projector_t *p, const command_t *command, int64_
     case COMMAND_SESSION:
         bus_auth_begin_session(&p->auth, command->session, command->bus_time_us, now_us);
         break;
+    case COMMAND_UPDATE:
+        c->refusal = update_execute(p, command, now_us);
+        return c->refusal == UPDATE_DONE ? COMMAND_OK : COMMAND_IMPOSSIBLE;
     case COMMAND_HELLO:
     case COMMAND_LOG:
     case COMMAND_NONCE:
@@ -81,6 +86,7 @@ static command_result_t execute(projector_t *p, const command_t *command, int64_
 static int put_answer(projector_t *p, const command_t *command, uint8_t *bytes, int64_t now_us)
 {
     frame_latency_t latency;
+    update_status_t update;
     uint32_t first = command->first_event;
     int events = 0;
     switch (command->kind) {
@@ -100,6 +106,9 @@ static int put_answer(projector_t *p, const command_t *command, uint8_t *bytes, 
     case COMMAND_NONCE:
         put_u64(bytes, bus_auth_give_nonce(&p->auth, now_us));
         return NONCE_BYTES;
+    case COMMAND_UPDATE:
+        update = update_status_of(p, now_us);
+        return update_status_encode(bytes, &update);
     case COMMAND_METHOD:
     case COMMAND_FREEZE:
     case COMMAND_PATTERN:
@@ -113,8 +122,10 @@ static int put_answer(projector_t *p, const command_t *command, uint8_t *bytes, 
 /* Why it is impossible, for the commands that have more to say than that. @return Bytes, after the header. */
 static int put_reason(const projector_t *p, const command_t *command, uint8_t *bytes, int64_t now_us)
 {
+    if (command->kind == COMMAND_UPDATE)
+        bytes[0] = (uint8_t)p->commands.refusal;
     if (command->kind != COMMAND_LATENCY)
-        return 0;
+        return command->kind == COMMAND_UPDATE;
     const frame_latency_t latency = frame_latency_of_wish(&p->choice.clock, wanted_ms(command), now_us);
     put_u32(bytes, (uint32_t)latency.least_us);
     put_u32(bytes + NUMBER_BYTES, (uint32_t)latency.most_us);

@@ -12,6 +12,7 @@
 
 #include "firmware/command.h"
 #include "firmware/isotp.h"
+#include "firmware/update.h"
 
 typedef struct projector projector_t;
 
@@ -24,6 +25,7 @@ typedef struct {
     command_pattern_t pattern; /**< shown in place of the corrected picture, unless it is none */
     int32_t wanted_latency_ms; /**< pose to photon, of all boards alike (frame_latency.h); 0: each as early as it can */
     bool reboot;               /**< asked for */
+    update_refusal_t refusal;  /**< why the newest COMMAND_UPDATE was not done */
 } commands_t;
 
 /** Begin to listen; nothing is asked for but the room's latency. @param node  1 to CAN_MAX_NODE. */

@@ -22,6 +22,7 @@ typedef enum {
     EVENT_COMMAND = 4,  /**< value: command_kind_t, plus EVENT_RESULT times command_result_t, plus EVENT_ARGUMENT
                              times the request's command_argument() */
     EVENT_BUS_TIME = 5, /**< value: state of the bus time */
+    EVENT_UPDATE = 6,   /**< value: can_update_state_t that it is in now */
     EVENT_KINDS
 } event_kind_t;
 

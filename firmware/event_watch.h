@@ -5,6 +5,7 @@
 
 #include <stdint.h>
 
+#include "firmware/can_update.h"
 #include "firmware/can_protocol.h"
 #include "firmware/command.h"
 #include "firmware/event_log.h"
@@ -18,6 +19,7 @@ typedef struct {
     can_time_state_t time;
     uint32_t fault_flags;
     int32_t step;
+    can_update_state_t update;
 } event_watch_t;
 
 /** An empty log but for the start. */
@@ -27,7 +29,7 @@ void event_watch_init(event_watch_t *watch, int32_t node);
 void event_watch_step(projector_t *projector, int64_t now_us);
 
 /**
- * Log a request, but not one that only asks (hello, log, nonce) and is answered.
+ * Log a request, but not one that only asks (hello, log, nonce, how an update stands) and is answered.
  *
  * @param command  Its kind may be unknown.
  */

@@ -63,6 +63,7 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
         (void)warp_add_method(&projector->warp, warp_methods[i]);
     projector_begin_ladder(projector);
     commands_init(&projector->commands, board->node, room->latency_ms);
+    update_init(&projector->update, projector->picture_us);
     event_watch_init(&projector->events, board->node);
 }
 
@@ -260,4 +261,5 @@ void projector_step(projector_t *p)
     telemetry_send(p, now_us);                           /* what was shown, and how the board does -> bus */
     event_watch_step(p, now_us);
     tell_life(p, healthy && !commands_reboot(&p->commands), now_us); /* -> watchdog, service manager */
+    update_step(p, now_us);                                          /* -> update agent */
 }

@@ -17,6 +17,7 @@
 #include "firmware/room.h"
 #include "firmware/stage_times.h"
 #include "firmware/telemetry.h"
+#include "firmware/update.h"
 #include "hal/hal_board.h"
 #include "warp_fixed/warp.h"
 
@@ -82,6 +83,7 @@ struct projector {
     can_faults_t can_faults;
     telemetry_t telemetry;
     commands_t commands; /**< what operators want */
+    update_t update;     /**< to another version of the firmware */
     event_watch_t events;
 };
 
@@ -117,9 +119,10 @@ void projector_begin_ladder(projector_t *projector);
 void projector_choose_method(projector_t *projector, int64_t time_us);
 
 /**
- * Everything that is done once per refresh: bus and its time, camera, warp, display, telemetry, watchdog. Call it after
- * each vertical blank. Never blocks, never allocates; ends with a picture presented whatever has failed, unless it is
- * the display itself. When pictures are late or about to be, the next ones are made with a cheaper method (degrade.h).
+ * Everything that is done once per refresh: bus and its time, camera, warp, display, telemetry, watchdog, update. Call
+ * it after each vertical blank. Never blocks, never allocates; ends with a picture presented whatever has failed,
+ * unless it is the display itself. When pictures are late or about to be, the next ones are made with a cheaper method
+ * (degrade.h).
  *
  * States: frozen (the wall keeps what it shows, nothing is presented) and pattern, as long as an operator wants that
  * (commands.h); else waiting for the first pose (safe picture); running; holding the last pose after

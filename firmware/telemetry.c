@@ -4,6 +4,7 @@
 
 #include "firmware/can_counts.h"
 #include "firmware/can_e2e.h"
+#include "firmware/can_update.h"
 #include "firmware/projector.h"
 
 void telemetry_init(telemetry_t *telemetry, int64_t now_us)
@@ -16,6 +17,7 @@ void telemetry_init(telemetry_t *telemetry, int64_t now_us)
         .time_due_us = now_us,
         .latency_due_us = now_us,
         .counts_due_us = now_us,
+        .update_due_us = now_us,
         .stage_due_us = now_us + STAGES * CAN_STAGE_PERIOD_MS * 1000,
     };
 }
@@ -219,6 +221,28 @@ static void send_counts(projector_t *p)
     send(p, can_counts_encode(&frame, &counts), &frame);
 }
 
+static void send_update(projector_t *p)
+{
+    telemetry_t *t = &p->telemetry;
+    const hal_update_state_t *said = &p->update.said;
+    const can_update_t update = {
+        .node = (uint8_t)p->node,
+        .counter = t->update_counter,
+        .state = can_update_state_of(&p->update),
+        .progress = (uint8_t)said->progress,
+        .slot = said->slot == 'A'   ? 1
+                : said->slot == 'B' ? 2
+                                    : 0,
+        .trial = said->trial,
+        .plan = p->update.plan,
+        .running = can_update_fingerprint(said->running),
+        .waiting = can_update_fingerprint(said->waiting),
+    };
+    t->update_counter = (uint8_t)((t->update_counter + 1) % CAN_E2E_P01_COUNTERS);
+    hal_can_frame_t frame;
+    send(p, can_update_encode(&frame, &update), &frame);
+}
+
 void telemetry_send(projector_t *projector, int64_t now_us)
 {
     telemetry_t *t = &projector->telemetry;
@@ -249,6 +273,10 @@ void telemetry_send(projector_t *projector, int64_t now_us)
     if (now_us >= t->counts_due_us) {
         t->counts_due_us = now_us + CAN_COUNTS_PERIOD_MS * 1000;
         send_counts(projector);
+    }
+    if (now_us >= t->update_due_us) {
+        t->update_due_us = now_us + CAN_UPDATE_PERIOD_MS * 1000;
+        send_update(projector);
     }
     if (now_us >= t->heartbeat_due_us) {
         t->heartbeat_due_us = now_us + CAN_HEARTBEAT_PERIOD_MS * 1000;

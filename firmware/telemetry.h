@@ -12,9 +12,10 @@ typedef struct projector projector_t;
 /** When what was last sent, and the fault counts at the last heartbeat. */
 typedef struct {
     int64_t start_us;
-    int64_t heartbeat_due_us, status_due_us, stage_due_us, quality_due_us, time_due_us, latency_due_us, counts_due_us;
+    int64_t heartbeat_due_us, status_due_us, stage_due_us, quality_due_us, time_due_us, latency_due_us, counts_due_us,
+        update_due_us;
     uint8_t heartbeat_counter, status_counter, stage_counter, quality_counter, time_counter, step_counter,
-        latency_counter, counts_counter;
+        latency_counter, counts_counter, update_counter;
     uint32_t fault_flags;    /**< of the newest heartbeat */
     stage_t stage;           /**< the next to be sent */
     stage_figures_t figures; /**< of the second that is being sent */
@@ -29,8 +30,8 @@ void telemetry_init(telemetry_t *telemetry, int64_t now_us);
 /** A picture was made: how old its pose is when it is seen. */
 void telemetry_add_photon(telemetry_t *telemetry, int32_t pose_to_photon_us);
 
-/** Send what is due: Step at the contents that all boards report; status, stages, quality, time, latency, counts and
- *  heartbeat, each after its CAN_..._PERIOD_MS. Call it once a refresh. Never blocks. */
+/** Send what is due: Step at the contents that all boards report; status, stages, quality, time, latency, counts,
+ *  update and heartbeat, each after its CAN_..._PERIOD_MS. Call it once a refresh. Never blocks. */
 void telemetry_send(projector_t *projector, int64_t now_us);
 
 #endif

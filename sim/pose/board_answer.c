@@ -77,6 +77,7 @@ void board_answer_print(const board_talk_t *talk)
     case COMMAND_LOG:
     case COMMAND_NONCE:
     case COMMAND_SESSION:
+    case COMMAND_UPDATE:
         printf("board %d: done\n", talk->node);
         break;
     }

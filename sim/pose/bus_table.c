@@ -182,6 +182,34 @@ static void print_latency(FILE *file, const bus_watch_t *watch)
     }
 }
 
+static void print_board_update(FILE *file, int node, const can_update_t *update)
+{
+    static const char *const slot[] = {"-", "A", "B"}, *const plan[] = {"no", "promised", "confirmed"};
+    fprintf(file, "%6d  %-10s %7u%%  %-4s  %04X  %-5s", node, can_update_state_name(update->state),
+            (unsigned)update->progress, slot[update->slot], (unsigned)update->running,
+            update->trial ? "trial" : "good");
+    if (update->waiting != 0)
+        fprintf(file, "     %04X", (unsigned)update->waiting);
+    else
+        fprintf(file, "  %7s", "-");
+    fprintf(file, "  %s\n", plan[update->plan]);
+}
+
+/* Of boards that have an agent. */
+static void print_updates(FILE *file, const bus_watch_t *watch)
+{
+    bool titled = false;
+    for (int node = 1; node <= CAN_MAX_NODE; node++) {
+        const bus_watch_board_t *board = &watch->board[node];
+        if (!board->has_update || board->update.state == CAN_UPDATE_NO_AGENT)
+            continue;
+        if (!titled)
+            fprintf(file, " board  update     progress  slot  runs  it is  waiting  switch\n");
+        titled = true;
+        print_board_update(file, node, &board->update);
+    }
+}
+
 void bus_table_print(FILE *file, const char *bus, const bus_watch_t *watch)
 {
     print_bus(file, bus, watch);
@@ -200,4 +228,5 @@ void bus_table_print(FILE *file, const char *bus, const bus_watch_t *watch)
     }
     print_agreement(file, watch);
     print_latency(file, watch);
+    print_updates(file, watch);
 }

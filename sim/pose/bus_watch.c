@@ -176,6 +176,11 @@ static can_check_t take_report(bus_watch_t *watch, const hal_can_frame_t *frame)
     can_counts_t counts;
     if (check == CAN_CHECK_OTHER && (check = can_counts_decode(&counts, frame)) == CAN_CHECK_OK)
         take_counts(&watch->board[counts.node], &counts);
+    can_update_t update;
+    if (check == CAN_CHECK_OTHER && (check = can_update_decode(&update, frame)) == CAN_CHECK_OK) {
+        watch->board[update.node].update = update;
+        watch->board[update.node].has_update = true;
+    }
     can_stage_t stage;
     return check == CAN_CHECK_OTHER ? can_stage_decode(&stage, frame) : check;
 }

@@ -10,6 +10,7 @@
 #include "firmware/can_counts.h"
 #include "firmware/can_latency.h"
 #include "firmware/can_protocol.h"
+#include "firmware/can_update.h"
 #include "firmware/pose_from_can.h"
 #include "sim/pose/step_watch.h"
 
@@ -49,8 +50,9 @@ typedef struct {
     can_time_t time;        /**< the newest, */
     can_step_t step;        /**< and of these: unspecified while steps is 0 */
     int64_t steps, in_step; /**< Steps, and those of them that say so */
-    bool has_latency, has_counts;
+    bool has_latency, has_counts, has_update;
     can_latency_t latency;
+    can_update_t update;
     can_counts_t counts, first_counts; /**< the newest, and the first that was heard since the board's start */
 } bus_watch_board_t;
 

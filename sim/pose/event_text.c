@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "firmware/can_protocol.h"
+#include "firmware/can_update.h"
 #include "sim/pose/request_text.h"
 
 enum { MS_PER_S = 1000, FLAGS = 16 };
@@ -62,6 +63,9 @@ static void value_text(char value[FAULT_NAMES_LENGTH], const event_t *event)
     case EVENT_BUS_TIME:
         snprintf(value, FAULT_NAMES_LENGTH, "%s", time_state_name(event->value));
         break;
+    case EVENT_UPDATE:
+        snprintf(value, FAULT_NAMES_LENGTH, "%s", can_update_state_name((can_update_state_t)event->value));
+        break;
     case EVENT_KINDS:
         snprintf(value, FAULT_NAMES_LENGTH, "%" PRId32 "; is the board's firmware newer?", event->value);
         break;
@@ -70,7 +74,8 @@ static void value_text(char value[FAULT_NAMES_LENGTH], const event_t *event)
 
 void event_text(char text[EVENT_TEXT_LENGTH], const event_t *event)
 {
-    static const char *const kinds[] = {"start", "state", "faults", "method", "command", "bus time", "unknown"};
+    static const char *const kinds[] = {"start",   "state",    "faults", "method",
+                                        "command", "bus time", "update", "unknown"};
     char value[FAULT_NAMES_LENGTH];
     value_text(value, event);
     snprintf(text, EVENT_TEXT_LENGTH, "%7" PRIu32 ".%03" PRIu32 " s  %-8s  %s", event->time_ms / MS_PER_S,

@@ -12,9 +12,10 @@
 enum { US_PER_MS = 1000, FIRST_KIND = COMMAND_HELLO };
 
 static const char *const names[] = {"hello",  "method", "freeze", "pattern", "latency",
-                                    "reboot", "log",    "nonce",  "session"};
+                                    "reboot", "log",    "nonce",  "session", "update"};
 static const char *const patterns[COMMAND_PATTERNS] = {"none", "grid", "white", "black"};
 static const char *const switches[] = {"off", "on"};
+static const char *const updates[COMMAND_UPDATES] = {"status", "install", "switch", "confirm", "cancel"};
 
 enum { KINDS = sizeof names / sizeof names[0], OPERATORS_KINDS = COMMAND_LOG };
 
@@ -77,6 +78,7 @@ static bool read_value(command_t *request, const char *value, char error[REQUEST
     case COMMAND_LOG:
     case COMMAND_NONCE:
     case COMMAND_SESSION:
+    case COMMAND_UPDATE:
         break;
     }
     return true;
@@ -127,6 +129,8 @@ void request_argument_text(char text[REQUEST_ARGUMENT_LENGTH], uint8_t kind, uin
         snprintf(text, REQUEST_ARGUMENT_LENGTH, " %s", argument < COMMAND_PATTERNS ? patterns[argument] : "unknown");
     else if (kind == COMMAND_LATENCY)
         snprintf(text, REQUEST_ARGUMENT_LENGTH, " %d ms", argument);
+    else if (kind == COMMAND_UPDATE)
+        snprintf(text, REQUEST_ARGUMENT_LENGTH, " %s", argument < COMMAND_UPDATES ? updates[argument] : "unknown");
 }
 
 const char *request_result_name(uint8_t result)

@@ -18,6 +18,7 @@ typedef struct {
     int64_t step_time_us;
     rng_t random; /* seeds of the board's starts */
     bool busy;    /* with its last step, in virtual time */
+    bool down;    /* between two versions */
 } node_t;
 
 struct sim_world {
@@ -90,7 +91,10 @@ static bool open_devices(sim_world_t *world, int32_t index, char error[FILE_ERRO
     devices->watchdog =
         devices->gpio == NULL ? NULL : sim_watchdog_create(devices->clock, SIM_WORLD_WATCHDOG_US, error);
     devices->service = devices->watchdog == NULL ? NULL : sim_service_create(error);
-    return devices->service != NULL;
+    if (devices->service == NULL || config->update == NULL)
+        return devices->service != NULL;
+    devices->update = sim_update_create(config->update, config->start_us, error);
+    return devices->update != NULL;
 }
 
 static void start(sim_world_t *world, int32_t index)
@@ -117,6 +121,38 @@ bool sim_world_restart(sim_world_t *world, int32_t index, char error[FILE_ERROR_
     devices->camera = camera;
     start(world, index);
     return true;
+}
+
+/* What it heard before, and its watchdog's wait, are of the firmware that is gone. */
+static bool start_other_slot(sim_world_t *world, int32_t index, char error[FILE_ERROR_LENGTH])
+{
+    hal_board_t *devices = &world->node[index].devices;
+    hal_can_frame_t frame;
+    hal_watchdog_t *watchdog = sim_watchdog_create(devices->clock, SIM_WORLD_WATCHDOG_US, error);
+    if (watchdog == NULL)
+        return false;
+    sim_watchdog_destroy(devices->watchdog);
+    devices->watchdog = watchdog;
+    sim_bus_replug(devices->can);
+    while (hal_can_receive(devices->can, &frame) == HAL_OK)
+        continue;
+    return sim_world_restart(world, index, error);
+}
+
+/* @return false when the board is to start, and can't. */
+static bool advance_update(sim_world_t *world, int32_t index, int64_t now_us, char error[FILE_ERROR_LENGTH])
+{
+    node_t *node = &world->node[index];
+    const sim_update_board_t board = sim_update_advance(node->devices.update, now_us);
+    const bool was_down = node->down;
+    node->down = board == SIM_UPDATE_DOWN;
+    if (node->down && !was_down) {
+        sim_bus_fail_bus_off(node->devices.can); /* what it has queued is lost */
+        sim_bus_fail_unplug(node->devices.can);
+        if (hal_can_restart(node->devices.can) != HAL_OK)
+            return file_error(error, "can", "the bus controller of board %d is stuck", (int)index + 1);
+    }
+    return board != SIM_UPDATE_STARTS || start_other_slot(world, index, error);
 }
 
 static bool open_node(sim_world_t *world, int32_t index, char error[FILE_ERROR_LENGTH])
@@ -168,6 +204,7 @@ void sim_world_destroy(sim_world_t *world)
     for (int32_t i = world->config.room->board_count - 1; i >= 0; i--) {
         node_t *node = &world->node[i];
         free(node->projector);
+        sim_update_destroy(node->devices.update);
         sim_service_destroy(node->devices.service);
         sim_watchdog_destroy(node->devices.watchdog);
         sim_gpio_destroy(node->devices.gpio);
@@ -208,13 +245,14 @@ bool sim_world_advance(sim_world_t *world, int64_t now_us, char error[FILE_ERROR
             sim_clock_set_us(devices->clock, now_us);
         sim_display_advance(devices->display, now_us);
         ok &= sim_camera_advance(devices->camera, now_us, error);
+        ok &= advance_update(world, i, now_us, error);
     }
     return ok;
 }
 
 void sim_world_step_board(sim_world_t *world, int32_t board)
 {
-    if (world->node[board].busy)
+    if (world->node[board].busy || world->node[board].down)
         return;
     const int64_t begin_us = sim_clock_monotonic_us();
     projector_step(world->node[board].projector);
@@ -233,7 +271,7 @@ const image_t *sim_world_shown(sim_world_t *world, int32_t board, int64_t blank_
 {
     hal_display_t *display = world->node[board].devices.display;
     sim_display_advance(display, blank_us);
-    return sim_display_shown(display);
+    return world->node[board].down ? NULL : sim_display_shown(display);
 }
 
 int64_t sim_world_step_time_us(const sim_world_t *world, int32_t board)

@@ -10,6 +10,7 @@
 #include "firmware/room.h"
 #include "sim/bus/sim_bus.h"
 #include "sim/devices/sim_rate.h"
+#include "sim/devices/sim_update.h"
 #include "sim/files/file_io.h"
 #include "sim/files/video_file.h"
 
@@ -37,6 +38,7 @@ typedef struct {
     uint64_t seed;                 /**< of everything random, when faults, clocks or a key are asked for */
     can_auth_t *key;               /**< of the room, must outlive the world; NULL: it has none */
     sim_world_clocks_t clocks;
+    const sim_update_settings_t *update; /**< of every board's update agent; NULL: they have none */
 } sim_world_config_t;
 
 /**
@@ -59,12 +61,13 @@ const hal_board_t *sim_world_devices(const sim_world_t *world, int32_t board);
 const projector_t *sim_world_projector(const sim_world_t *world, int32_t board);
 
 /**
- * Bring bus, clocks, displays and cameras to now_us; in virtual time not those of a board whose clock is ahead, because
- * its last step took longer than a refresh (sim_display_faults_t.drawing_us).
+ * Bring bus, clocks, displays, cameras and update agents to now_us; in virtual time not those of a board whose clock is
+ * ahead, because its last step took longer than a refresh (sim_display_faults_t.drawing_us).
  *
  * @param      now_us  Just after a vertical blank; never less than at the last call.
- * @param[out] error   On failure: a camera could not read its video.
- * @return false when a picture was lost because the video could not be read; all else is done.
+ * @param[out] error   On failure: a camera could not read its video, or memory is out.
+ * @return false when a picture was lost because the video could not be read, or a board not started anew; all else is
+ * done.
  */
 bool sim_world_advance(sim_world_t *world, int64_t now_us, char error[FILE_ERROR_LENGTH]);
 
@@ -82,7 +85,7 @@ bool sim_world_step(sim_world_t *world, int64_t now_us, char error[FILE_ERROR_LE
  * What the board's wall shows from a vertical blank on. Call it after the step that drew the picture.
  *
  * @param blank_us  The blank; all earlier ones are performed too.
- * @return NULL while the wall is dark. Valid until the next step.
+ * @return NULL while the wall is dark, as it is while the board starts in its other slot. Valid until the next step.
  */
 const image_t *sim_world_shown(sim_world_t *world, int32_t board, int64_t blank_us);
 

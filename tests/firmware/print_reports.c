@@ -3,6 +3,7 @@
 #include "firmware/can_counts.h"
 #include "firmware/can_latency.h"
 #include "firmware/can_protocol.h"
+#include "firmware/can_update.h"
 #include "tests/firmware/print_frame.h"
 
 static void print_status(void)
@@ -131,6 +132,32 @@ static void print_counts(void)
            "signal CountsEpochsMissed 99\nsignal CountsCommandFaults 4000\n");
 }
 
+static void print_updates(void)
+{
+    static const char *const NAME[] = {"NoAgent", "Idle", "Installing", "Ready", "Failed", "Switching"};
+    static const char *const SLOT[] = {"Unknown", "A", "B"}, *const PLAN[] = {"None", "Promised", "Confirmed"};
+    for (int i = 0; i < CAN_UPDATE_STATES; i++) {
+        hal_can_frame_t frame;
+        const can_update_t update = {.node = 1,
+                                     .counter = (uint8_t)(9 + i),
+                                     .state = (can_update_state_t)i,
+                                     .progress = (uint8_t)(95 + i),
+                                     .slot = (uint8_t)(i % 3),
+                                     .trial = i % 2 == 1,
+                                     .plan = (update_plan_t)(i / 2),
+                                     .running = can_update_fingerprint("123456789"),
+                                     .waiting = 54321};
+        check(can_update_encode(&frame, &update));
+        print_frame("Update", &frame, CAN_UPDATE_PERIOD_MS);
+        printf("signal UpdateCounter %d\nsignal UpdateState %d\nsignal UpdateProgress %d\nsignal UpdateSlot %d\n"
+               "signal UpdateTrial %d\nsignal UpdatePlan %d\nsignal UpdateReserved 0\n"
+               "signal UpdateRunning %u\nsignal UpdateWaiting 54321\n",
+               9 + i, i, 95 + i, i % 3, i % 2, i / 2, (unsigned)update.running);
+        printf("named UpdateState %s\nnamed UpdateSlot %s\nnamed UpdateTrial %s\nnamed UpdatePlan %s\n", NAME[i],
+               SLOT[i % 3], i % 2 == 1 ? "OnTrial" : "Good", PLAN[i / 2]);
+    }
+}
+
 /* One heartbeat for each fault flag, so that no two flags can be confused. */
 static void print_heartbeats(void)
 {
@@ -173,6 +200,7 @@ int main(void)
     print_times();
     print_latencies();
     print_counts();
+    print_updates();
     print_heartbeats();
     can_auth_close(key);
     return 0;

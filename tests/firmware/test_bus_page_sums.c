@@ -5,6 +5,7 @@
 #include "firmware/can_frame_clock.h"
 #include "firmware/can_latency.h"
 #include "firmware/can_protocol.h"
+#include "firmware/can_update.h"
 #include "tests/firmware/bus_page.h"
 
 enum { POSES_PER_S = 240 };
@@ -43,7 +44,7 @@ static void test_loads_are_the_sums(void **state)
     const double step = per_s(CAN_STEP_PERIOD_MS), status = per_s(CAN_STATUS_PERIOD_MS),
                  stage = per_s(CAN_STAGE_PERIOD_MS), heartbeat = per_s(CAN_HEARTBEAT_PERIOD_MS),
                  seldom = per_s(CAN_QUALITY_PERIOD_MS) + per_s(CAN_TIME_PERIOD_MS) + per_s(CAN_LATENCY_PERIOD_MS) +
-                          per_s(CAN_COUNTS_PERIOD_MS),
+                          per_s(CAN_COUNTS_PERIOD_MS) + per_s(CAN_UPDATE_PERIOD_MS),
                  reports = step + status + stage + heartbeat + seldom, sync = 2 * per_s(CAN_SYNC_PERIOD_MS),
                  clock = per_s(CAN_FRAME_CLOCK_PERIOD_MS), room = sync + clock + 8 * reports;
     const row_t rows[] = {
@@ -55,7 +56,7 @@ static void test_loads_are_the_sums(void **state)
         {"| `Status`", status, 0},
         {"| `Stage`", stage, 0},
         {"| `Heartbeat`", heartbeat, 0},
-        {"| `Quality`, `Time`, `Latency`, `Counts`, together", seldom, 0},
+        {"| `Quality`, `Time`, `Latency`, `Counts`, `Update`, together", seldom, 0},
         {"| all reports of a board", reports, 0},
         {"| a room of 8 boards, a viewer with `Pose`", room, POSES_PER_S},
         {"| the same with sets", room + 3 * POSES_PER_S, 0},

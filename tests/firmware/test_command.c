@@ -25,6 +25,8 @@ static void assert_bytes(const command_t *command, const char *bytes, int length
     assert_int_equal(read.first_event, command->first_event);
     assert_int_equal(read.session, command->session);
     assert_int_equal(read.bus_time_us, command->bus_time_us);
+    assert_int_equal(read.update, command->update);
+    assert_string_equal(read.text, command->text);
 }
 
 static void test_requests(void **state)
@@ -48,6 +50,18 @@ static void test_requests(void **state)
     assert_bytes(&(command_t){.kind = COMMAND_NONCE}, "\x08", 1);
     const command_t session = {.kind = COMMAND_SESSION, .session = 0x0123456789ABCDEF, .bus_time_us = 0xFEDCBA987654};
     assert_bytes(&session, "\x09\xEF\xCD\xAB\x89\x67\x45\x23\x01\x54\x76\x98\xBA\xDC\xFE\x00\x00", 17);
+    assert_bytes(&(command_t){.kind = COMMAND_UPDATE}, "\x0A\x00", 2);
+    assert_bytes(&(command_t){.kind = COMMAND_UPDATE, .update = COMMAND_UPDATE_INSTALL, .text = "usb"}, "\x0A\x01usb",
+                 5);
+    const command_t change = {
+        .kind = COMMAND_UPDATE, .update = COMMAND_UPDATE_SWITCH, .bus_time_us = 0xFEDCBA987654, .text = "0.6"};
+    assert_bytes(&change,
+                 "\x0A\x02\x54\x76\x98\xBA\xDC\xFE\x00\x00"
+                 "0.6",
+                 13);
+    const command_t sure = {.kind = COMMAND_UPDATE, .update = COMMAND_UPDATE_CONFIRM, .bus_time_us = 0xFEDCBA987654};
+    assert_bytes(&sure, "\x0A\x03\x54\x76\x98\xBA\xDC\xFE\x00\x00", 10);
+    assert_bytes(&(command_t){.kind = COMMAND_UPDATE, .update = COMMAND_UPDATE_CANCEL}, "\x0A\x04", 2);
     for (int m = 0; m < WARP_METHODS; m++) {
         uint8_t bytes[COMMAND_MAX_BYTES];
         command_t read;
@@ -67,7 +81,7 @@ static void test_bad_requests_change_nothing(void **state)
     } bad[] = {
         {"", 0, COMMAND_BAD_VALUE},
         {"\x00", 1, COMMAND_UNKNOWN},
-        {"\x0A", 1, COMMAND_UNKNOWN},
+        {"\x0B", 1, COMMAND_UNKNOWN},
         {"\xFF", 1, COMMAND_UNKNOWN},
         {"\x01\x00", 2, COMMAND_BAD_VALUE},
         {"\x02"
@@ -93,7 +107,31 @@ static void test_bad_requests_change_nothing(void **state)
         {"\x09"
          "12345678abcdef\x01\x00", /* 2^48 us and more */
          17, COMMAND_BAD_VALUE},
+        {"\x0A", 1, COMMAND_BAD_VALUE},
+        {"\x0A\x05", 2, COMMAND_BAD_VALUE},
+        {"\x0A\x00\x00", 3, COMMAND_BAD_VALUE},
+        {"\x0A\x04\x00", 3, COMMAND_BAD_VALUE},
+        {"\x0A\x01", 2, COMMAND_BAD_VALUE},
+        {"\x0A\x01relative", 10, COMMAND_BAD_VALUE},
+        {"\x0A\x01/a b", 6, COMMAND_BAD_VALUE},
+        {"\x0A\x01/a\x00", 5, COMMAND_BAD_VALUE},
+        {"\x0A\x02\x01\x00\x00\x00\x00\x00\x00\x00", 10, COMMAND_BAD_VALUE}, /* no version */
+        {"\x0A\x02\x01\x00\x00\x00\x00\x00\x01\x00x", 11, COMMAND_BAD_VALUE},
+        {"\x0A\x02\x01\x00\x00\x00\x00\x00\x00\x00"
+         "123456789012345678901234567890123",
+         43, COMMAND_BAD_VALUE},
+        {"\x0A\x03\x01\x00\x00\x00\x00\x00\x00", 9, COMMAND_BAD_VALUE},
+        {"\x0A\x03\x01\x00\x00\x00\x00\x00\x01\x00", 10, COMMAND_BAD_VALUE},
     };
+    command_t longest = {.kind = COMMAND_UPDATE, .update = COMMAND_UPDATE_INSTALL, .text = "/"};
+    uint8_t bytes[COMMAND_MAX_BYTES];
+    memset(longest.text + 1, 'x', sizeof longest.text - 2);
+    const int length = command_encode(bytes, &longest);
+    command_t read;
+    assert_int_equal(command_decode(&read, bytes, length), COMMAND_OK);
+    assert_string_equal(read.text, longest.text);
+    bytes[length] = 'x';
+    assert_int_equal(command_decode(&read, bytes, length + 1), COMMAND_BAD_VALUE);
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         command_t command = {.kind = COMMAND_HELLO, .latency_us = 77};
         assert_int_equal(command_decode(&command, (const uint8_t *)bad[i].bytes, bad[i].length), bad[i].result);
@@ -117,6 +155,7 @@ static void test_arguments_fit_the_log(void **state)
     assert_int_equal(command_argument(&(command_t){.kind = COMMAND_FREEZE, .freeze = true}), 1);
     assert_int_equal(command_argument(&(command_t){.kind = COMMAND_PATTERN, .pattern = COMMAND_PATTERN_BLACK}), 3);
     assert_int_equal(command_argument(&(command_t){.kind = COMMAND_LATENCY, .latency_us = 200000}), 200);
+    assert_int_equal(command_argument(&(command_t){.kind = COMMAND_UPDATE, .update = COMMAND_UPDATE_CANCEL}), 4);
     assert_int_equal(command_argument(&(command_t){.kind = COMMAND_REBOOT, .freeze = true}), 0);
 }
 

@@ -116,6 +116,10 @@ static void test_no_command_allocates(void **state)
         {.kind = COMMAND_METHOD},
         {.kind = COMMAND_LATENCY, .latency_us = 1000},
         {.kind = COMMAND_LOG},
+        {.kind = COMMAND_UPDATE},
+        {.kind = COMMAND_UPDATE, .update = COMMAND_UPDATE_INSTALL, .text = "/wallwarp-host-0.6.raucb"},
+        {.kind = COMMAND_UPDATE, .update = COMMAND_UPDATE_SWITCH, .bus_time_us = 5, .text = "0.6"},
+        {.kind = COMMAND_UPDATE, .update = COMMAND_UPDATE_CANCEL},
         {.kind = COMMAND_REBOOT},
     };
     open_projector(warp_method_default(), true);

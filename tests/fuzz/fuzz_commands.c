@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "firmware/projector.h"
+#include "firmware/update_status.h"
+#include "sim/devices/sim_update.h"
 #include "tests/fuzz/input.h"
 #include "tests/fuzz/input_frame.h"
 
@@ -52,9 +54,12 @@ static hal_can_t can;
 int LLVMFuzzerInitialize(int *argc, char ***argv)
 {
     const uint8_t border[3] = {0, 0, 0};
+    static const sim_update_settings_t update = {.running = "0.5", .install_us = 1000000, .reboot_us = 1000000};
+    char error[FILE_ERROR_LENGTH];
     (void)argc;
     (void)argv;
     projector.board.can = &can;
+    projector.board.update = sim_update_create(&update, 0, error);
     projector.node = NODE;
     projector.choice.clock.rate = (frame_rate_t){60, 1};
     projector.room_method = warp_method_default();
@@ -76,11 +81,29 @@ static void check_wishes(void)
     c->reboot = false;
 }
 
+/* A switch is asked for after a promise and its confirmation only, and its moment is not far. */
+static void check_update(update_plan_t plan, int64_t now_us)
+{
+    static int64_t switched_us = INT64_MIN;
+    const update_t *u = &projector.update;
+    fuzz_check((unsigned)u->plan < UPDATE_PLANS, "the plan is one");
+    fuzz_check(u->plan == UPDATE_NO_PLAN || u->switch_us - now_us <= 2 * (int64_t)UPDATE_MOST_AHEAD_US,
+               "a switch is not far");
+    fuzz_check(sim_update_switched_us(projector.board.update) == switched_us || plan == UPDATE_CONFIRMED,
+               "only what is confirmed is done");
+    switched_us = sim_update_switched_us(projector.board.update);
+}
+
 static void step(int64_t *now_us)
 {
     const int before = can.count;
     *now_us += STEP_US;
+    const sim_update_board_t board = sim_update_advance(projector.board.update, *now_us);
+    (void)board; /* this one is never down */
     commands_step(&projector, *now_us);
+    const update_plan_t plan = projector.update.plan;
+    update_step(&projector, *now_us);
+    check_update(plan, *now_us);
     fuzz_check(can.count - before <= COMMANDS_FRAMES, "a step sends few frames");
     for (int i = before; i < can.count; i++)
         fuzz_check(can.frame[i].id == CAN_ID_REPLY + NODE && can.frame[i].length == 8 && !can.frame[i].fd,
@@ -88,14 +111,30 @@ static void step(int64_t *now_us)
     check_wishes();
 }
 
+/* Any bytes; or an update, whose words hardly come by chance. */
+static int read_request(input_t *input, uint8_t request[COMMAND_MAX_BYTES + 8])
+{
+    static const char *const texts[] = {"/wallwarp-host-0.6.raucb", "usb", "/a-.raucb", "0.6", "0.5", ""};
+    const int most = COMMAND_MAX_BYTES + 8, length = input_range(input, 1, most);
+    if (length > COMMAND_MAX_BYTES) {
+        command_t command = {.kind = COMMAND_UPDATE,
+                             .update = (command_update_t)input_range(input, 0, COMMAND_UPDATES - 1),
+                             .bus_time_us = input_bits(input, 3)};
+        const char *text = texts[input_range(input, 0, sizeof texts / sizeof texts[0] - 1)];
+        memcpy(command.text, text, strlen(text));
+        return command_encode(request, &command);
+    }
+    for (int i = 0; i < length; i++)
+        request[i] = input_byte(input);
+    return length;
+}
+
 /* Whole requests are answered by what command_decode() says of them. */
 static void ask(input_t *input, int64_t *now_us)
 {
     uint8_t request[COMMAND_MAX_BYTES + 8];
     isotp_t tool;
-    const int length = input_range(input, 1, sizeof request);
-    for (int i = 0; i < length; i++)
-        request[i] = input_byte(input);
+    const int length = read_request(input, request);
     *now_us += 2 * ISOTP_TIMEOUT_US; /* what came before is over */
     step(now_us);
     step(now_us);
@@ -116,8 +155,15 @@ static void ask(input_t *input, int64_t *now_us)
     const command_result_t expected = of_key ? COMMAND_UNKNOWN : command_decode(&command, request, length);
     const int bytes = isotp_received(&tool, &reply);
     fuzz_check(bytes >= 2 && reply[0] == (request[0] | COMMAND_REPLY_FLAG), "there is a reply to it");
-    fuzz_check(reply[1] == expected || (command.kind == COMMAND_METHOD && reply[1] == COMMAND_IMPOSSIBLE),
-               "its result is right");
+    const bool may_be_impossible = command.kind == COMMAND_METHOD || command.kind == COMMAND_UPDATE;
+    fuzz_check(reply[1] == expected || (may_be_impossible && reply[1] == COMMAND_IMPOSSIBLE), "its result is right");
+    if (command.kind == COMMAND_UPDATE) {
+        update_status_t status;
+        fuzz_check(reply[1] == COMMAND_OK ? update_status_decode(&status, reply + 2, bytes - 2)
+                                          : bytes == 3 && reply[2] != UPDATE_DONE,
+                   "it says how the update stands, or why not");
+        return;
+    }
     fuzz_check(bytes == 2 || reply[1] == COMMAND_OK, "what is refused has no answer");
 }
 
@@ -152,6 +198,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     input_t input = {data, size};
     int64_t now_us = 1000000;
     commands_init(&projector.commands, NODE, 0);
+    update_init(&projector.update, now_us);
+    bus_time_begin(&projector.time.time, now_us, now_us);
+    projector.time.own = true;
     event_watch_init(&projector.events, NODE);
     projector.ladder = ladder_of(projector.room_method);
     projector_begin_ladder(&projector);

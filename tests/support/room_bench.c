@@ -84,12 +84,15 @@ void room_bench_open_with_key(room_bench_t *bench, bool fd, can_auth_t *key)
     load_room(&bench->room, fd);
     bench->video = video_open("pattern", 96, 54, error);
     assert_string_equal(error, "");
+    static const sim_update_settings_t update = {
+        .running = "0.5", .install_us = ROOM_BENCH_INSTALL_US, .reboot_us = ROOM_BENCH_REBOOT_US};
     const sim_world_config_t config = {
         .room = &bench->room,
         .video = bench->video,
         .refresh = {1000000 / (2 * ROOM_BENCH_HZ), ROOM_BENCH_HZ, 1},
         .seed = 7,
         .key = key,
+        .update = &update,
     };
     bench->world = sim_world_create(&config, error);
     assert_string_equal(error, "");

@@ -9,7 +9,7 @@
 #include "firmware/can_protocol.h"
 #include "sim/run/sim_world.h"
 
-enum { ROOM_BENCH_HZ = 60, ROOM_BENCH_BOARDS = 2 };
+enum { ROOM_BENCH_HZ = 60, ROOM_BENCH_BOARDS = 2, ROOM_BENCH_INSTALL_US = 2000000, ROOM_BENCH_REBOOT_US = 3000000 };
 
 /** What a board has said of itself on the bus. */
 typedef struct {
