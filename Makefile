@@ -120,7 +120,8 @@ define link
 endef
 
 # Programs and tests that drive Linux's devices have them in place of the simulator's.
-ON_LINUX := $(if $(filter linux,$(HAL)),$(BUILD)/wallwarp) \
+OTHER_BOARD := $(BUILD)/tests/board/virtual/wallwarp_of_rpi4
+ON_LINUX := $(if $(filter linux,$(HAL)),$(BUILD)/wallwarp) $(OTHER_BOARD) \
             $(patsubst tests/%.c,$(BUILD)/tests/%,$(wildcard tests/hal/linux/*.c tests/board/virtual/*.c))
 $(ON_LINUX): $(BUILD)/liblinux.a
 $(ON_LINUX): LIBS := $(BUILD)/liblinux.a $(filter-out %/libsim.a,$(LIBS))
@@ -136,6 +137,9 @@ $(addprefix $(BUILD)/tests/board/virtual/check_,hal_can hal_gpio): $(BUILD)/test
     $(BUILD)/obj/tests/hal/test_%.c.o
 
 $(BUILD)/wallwarp: $(call objects,firmware/main.c board/$(BOARD)/board.c) $(LIBS)
+	$(call link)
+# The firmware of another board, which the virtual one must refuse.
+$(OTHER_BOARD): $(call objects,firmware/main.c board/rpi4/board.c) $(LIBS)
 	$(call link)
 $(BUILD)/wallwarp-%: $(BUILD)/obj/sim/wallwarp_%.c.o $(LIBS)
 	$(call link)
@@ -311,7 +315,7 @@ test-board: setup-test setup-board ## Boot a virtual arm64 board and run the fir
 	    board/wire_tool)
 	$(Q)$(MAKE) --no-print-directory BOARD=qemu-virt virtual-programs
 	$(Q)tests/board/virtual/run.sh build/test-board build/qemu-virt $(VIRTUAL_TESTS)
-virtual-programs: programs $(VIRTUAL_PROGRAMS) $(HEAP_COUNTER) build/board-kernel/initramfs.gz
+virtual-programs: programs $(VIRTUAL_PROGRAMS) $(OTHER_BOARD) $(HEAP_COUNTER) build/board-kernel/initramfs.gz
 
 # --- benchmarks -------------------------------------------------------------------------------------------------------
 

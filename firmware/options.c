@@ -3,6 +3,7 @@
 #include "firmware/options.h"
 
 #include <argp.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "firmware/auth_key.h"
@@ -98,18 +99,19 @@ static error_t read_option(int key, char *text, struct argp_state *state)
 
 options_t options_read(int argc, char **argv)
 {
+    static char doc[HAL_BOARD_HELP_LENGTH + 256];
     static const struct argp argp = {
         .options = option_table,
         .parser = read_option,
         .args_doc = "ROOM --node N\n--config FILE\n--check [ROOM --node N | --config FILE]\n--off",
-        .doc = "The projector's firmware: shows on one wall of ROOM what the tracked viewer must see."
-               "\vOn the host the bus is a port of 127.0.0.1 (socketcand protocol, channel can0), the camera a "
-               "picture or video file or \"pattern\", the display a folder for PNGs or \"none\"; nv12: or another "
-               "format may be before either, for pictures that are not XRGB. Ends on SIGINT or SIGTERM. Exit status: 0 "
-               "done, 1 failed or something is missing, 2 bad usage.",
+        .doc = doc,
     };
     options_t options = {.kernels = warp_kernels_best()};
     argp_err_exit_status = OPTIONS_BAD_USAGE;
+    (void)snprintf(doc, sizeof doc,
+                   "The projector's firmware: shows on one wall of ROOM what the tracked viewer must see.\v%s Ends on "
+                   "SIGINT or SIGTERM. Exit status: 0 done, 1 failed or something is missing, 2 bad usage.",
+                   hal_board_help);
     if (argp_parse(&argp, argc, argv, 0, NULL, &options) != 0)
         exit(OPTIONS_BAD_USAGE);
     return options;

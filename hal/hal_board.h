@@ -17,7 +17,7 @@
 #include "hal/hal_watchdog.h"
 #include "hal/hal_workers.h"
 
-enum { HAL_BOARD_ERROR_LENGTH = 256, HAL_BOARD_NO_LINE = -1 };
+enum { HAL_BOARD_ERROR_LENGTH = 256, HAL_BOARD_HELP_LENGTH = 512, HAL_BOARD_NO_LINE = -1 };
 
 /** The open devices of one board. Handles are opaque; each HAL defines the structs behind them. */
 typedef struct {
@@ -43,6 +43,8 @@ typedef struct {
 /** What a board is made of: one constant of this type in board/NAME/board.c. Names are the HAL's own. */
 typedef struct {
     const char *name;    /**< of the board, as in BOARD=NAME */
+    const char *machine; /**< a name that its device tree lists as compatible, its chip's for one; NULL: any machine; of
+                                no meaning in the simulator */
     const char *can;     /**< bus: an interface (can0), or in the simulator a port of 127.0.0.1 */
     const char *camera;  /**< video source: a device, or in the simulator a picture or video file, or "pattern";
                                 there a format may be before it, as in nv12:FILE */
@@ -54,6 +56,10 @@ typedef struct {
 } board_table_t;
 
 extern const board_table_t board_table;
+
+/** What bus, camera and display are called in a board_table_t: sentences for the help of programs, at most
+ *  HAL_BOARD_HELP_LENGTH - 1 characters. */
+extern const char hal_board_help[];
 
 /** What the room file asks of the devices. */
 typedef struct {

@@ -25,6 +25,13 @@ _Static_assert((int)HAL_BOARD_ERROR_LENGTH >= (int)FILE_ERROR_LENGTH &&
                    (int)HAL_BOARD_ERROR_LENGTH >= (int)HAL_WORKERS_ERROR_LENGTH,
                "what the devices say of a failure must fit what hal_board_open() is given");
 
+const char hal_board_help[] =
+    "The bus is a port of 127.0.0.1 (socketcand protocol, channel can0), the camera a picture or video file or "
+    "\"pattern\", the display a folder for PNGs or \"none\"; nv12: or another format may be before either, for "
+    "pictures that are not XRGB.";
+
+_Static_assert(sizeof hal_board_help <= HAL_BOARD_HELP_LENGTH, "as hal_board.h says");
+
 typedef struct {
     hal_board_t devices;
     sim_bus_t *bus;

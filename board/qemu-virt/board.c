@@ -4,6 +4,7 @@
 
 const board_table_t board_table = {
     .name = "qemu-virt",
+    .machine = "linux,dummy-virt",
     .can = "can2",
     .camera = "v4l2:vivid",
     .display = "Virtual-1",

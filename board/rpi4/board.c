@@ -4,6 +4,7 @@
 
 const board_table_t board_table = {
     .name = "rpi4",
+    .machine = "brcm,bcm2711",
     .can = "can0",
     .camera = "v4l2:/dev/video0",
     .display = "HDMI-A-1",

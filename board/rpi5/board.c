@@ -4,6 +4,7 @@
 
 const board_table_t board_table = {
     .name = "rpi5",
+    .machine = "brcm,bcm2712",
     .can = "can0",
     .camera = "v4l2:/dev/video0+tc358743 11-000f",
     .display = "HDMI-A-1",

@@ -7,6 +7,7 @@
 #include "hal/linux/can_socketcan.h"
 #include "hal/linux/display_kms.h"
 #include "hal/linux/gpio_gpiod.h"
+#include "hal/linux/machine_linux.h"
 #include "hal/linux/realtime_linux.h"
 #include "hal/linux/service_systemd.h"
 #include "hal/linux/time_linux.h"
@@ -14,6 +15,13 @@
 #include "hal/linux/watchdog_linux.h"
 
 enum { HIGHEST_PRIORITY = 99 };
+
+const char hal_board_help[] =
+    "The bus is a CAN interface (can0), the camera v4l2: and a device or its name (v4l2:/dev/video0), or libcamera: "
+    "and a camera's number or name, with a format before it where no other will do (nv12:libcamera:0), the display a "
+    "connector (HDMI-A-1, card1:HDMI-A-1) or auto.";
+
+_Static_assert(sizeof hal_board_help <= HAL_BOARD_HELP_LENGTH, "as hal_board.h says");
 
 /* One step of opening. It leaves nothing behind when it fails. */
 typedef hal_status_t open_fn(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
@@ -191,6 +199,8 @@ hal_status_t hal_board_open(hal_board_t *board, const board_table_t *table, cons
                             char error[HAL_BOARD_ERROR_LENGTH])
 {
     hal_board_t opened = {0};
+    if (machine_linux_open("", table, error) != HAL_OK)
+        return HAL_IO;
     for (int i = 0; i < DEVICES; i++)
         if (devices[i].open(&opened, table, needs, error) != HAL_OK) {
             close_first(&opened, i);

@@ -8,6 +8,7 @@
 #include <sys/resource.h>
 
 #include "hal/linux/check.h"
+#include "hal/linux/machine_linux.h"
 
 enum { NAME_LENGTH = 32 };
 
@@ -135,8 +136,20 @@ static void check_clock(check_t *check)
         check_advise(check, "mount -t sysfs none /sys", "clock: CLOCK_MONOTONIC, its source is not known");
 }
 
+static void check_machine(check_t *check)
+{
+    char found[MACHINE_LINUX_NAME_LENGTH];
+    if (!machine_linux_is(check->root, check->table->machine, found))
+        check_miss(check, "install the firmware of this board (make BOARD=NAME)",
+                   "machine: found %s, expected %s, as this is the firmware of board %s", found, check->table->machine,
+                   check->table->name);
+    else
+        check_found(check, "machine: %s", found[0] == '\0' ? "it has no device tree" : found);
+}
+
 void check_system(check_t *check)
 {
+    check_machine(check);
     check_priority(check);
     check_locked_memory(check);
     check_network_right(check);

@@ -77,6 +77,11 @@ expect 2 'wallwarp: expected ROOM and --node N'
 ok $? "--off"
 [ ! -s "$folder/out" ]
 ok $? "--off said something"
+"$wallwarp" --help | tr -s ' \n' '  ' >"$folder/out"
+for text in 'The bus is a port of 127.0.0.1' 'the display a folder' 'not XRGB. Ends on SIGINT or SIGTERM.' ', 2 bad usage.'; do
+    grep -qF "$text" "$folder/out"
+    ok $? "--help has no: $text"
+done
 
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

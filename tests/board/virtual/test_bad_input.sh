@@ -8,6 +8,7 @@ set -u
 . tests/board/virtual/vm.sh
 . tests/board/virtual/checks.sh
 wallwarp=/tree/$1/wallwarp
+wallwarp_of_rpi4=/tree/$1/tests/board/virtual/wallwarp_of_rpi4
 
 # write_room NAME PICTURE_WIDTH PICTURE_HEIGHT PANEL_WIDTH PANEL_HEIGHT BUS
 write_room() {
@@ -73,16 +74,41 @@ test_start() {
     ok "$1: the firmware lives and ends on SIGTERM; status $status, free $freed; said: $(cat "$VM/share/run")" $?
 }
 
+# From when it says what it opens on, SIGTERM ends it as at any time. It comes while devices are opened when no heartbeat
+# has been heard: soon, whatever this machine does meanwhile.
+test_end_while_opening() {
+    local said status freed last try
+    for try in 1 2 3 4 5; do
+        said "rm -f /run/said; mkfifo /run/said; candump -n 1 can3,701:7FF >/share/heard & candump=\$!
+            $run 2>/run/said & firmware=\$!; exec 3</run/said; read -r line <&3; kill \$firmware; echo \"\$line\"
+            cat <&3; wait \$firmware; ended=\$?; kill \$candump; (exit \$ended)"
+        [ "$status $freed" = '0 1' ] || break
+        [ -s "$VM/share/heard" ] || break
+    done
+    [ "$status $freed" = '0 1' ] && [[ $said == *'board "wall" on qemu-virt'* ]] && [ ! -s "$VM/share/heard" ]
+    ok "SIGTERM while devices are opened: status $status, free $freed, $try tries; said: $said" $?
+}
+
 test_check_finds_all() {
     local said status freed last word
     said "$run --check"
     [ "$status $freed" = '0 1' ] && ! grep -q '^missing' <<<"$said"
     ok "--check of what is right: status $status, free $freed; said: $said" $?
     for word in 'room: /share/room.yaml' 'can can2: 500000 bit/s FD, data 2000000' 'vivid' 'Virtual-1' \
-        'line 0 (LED)' 'line 3 (lamp)' 'i6300ESB' 'real-time priority' 'locked memory' 'CAP_NET_ADMIN' 'arch_sys_counter'; do
+        'line 0 (LED)' 'line 3 (lamp)' 'i6300ESB' 'real-time priority' 'locked memory' 'CAP_NET_ADMIN' 'arch_sys_counter' \
+        'machine: linux,dummy-virt'; do
         grep '^found\|^advice' <<<"$said" | grep -qF "$word"
         ok "--check finds $word; said: $said" $?
     done
+}
+
+test_board() {
+    refused "another board's firmware" "$wallwarp_of_rpi4 /share/room.yaml --node 1" linux,dummy-virt \
+        'board rpi4, expected brcm,bcm2711' 'install the firmware of this board'
+    checked "another board's firmware" "$wallwarp_of_rpi4 --check" 'machine: found linux,dummy-virt'
+    said=$(vm_run "$wallwarp --help" | tr -s ' \n' '  ')
+    [[ $said == *'The bus is a CAN interface'*'v4l2:/dev/video0'*'HDMI-A-1'*', 2 bad usage.'* && $said != *127.0.0.1* ]]
+    ok "--help tells of this board's devices: $said" $?
 }
 
 test_room() {
@@ -182,6 +208,8 @@ vm_run 'ip link set can2 up txqueuelen 64 type can bitrate 500000 dbitrate 20000
     ip link set can3 up txqueuelen 64 type can bitrate 500000 dbitrate 2000000 fd on restart-ms 100'
 test_start "at first"
 test_check_finds_all
+test_end_while_opening
+test_board
 test_room
 test_bus
 test_camera

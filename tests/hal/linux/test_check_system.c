@@ -102,6 +102,24 @@ static void test_a_good_machine(void **state)
     assert_said(HAL_CHECK_FOUND, "clock: CLOCK_MONOTONIC from arch_sys_counter");
 }
 
+static void test_machine(void **state)
+{
+    (void)state;
+    table.name = "rpi4";
+    table.machine = "brcm,bcm2711";
+    check_system(&check);
+    assert_said(HAL_CHECK_FOUND, "machine: it has no device tree");
+    write_file("/proc/device-tree/compatible", "linux,dummy-virt");
+    machine.lines = 0;
+    check_system(&check);
+    assert_said(HAL_CHECK_MISSING, "machine: found linux,dummy-virt, expected brcm,bcm2711, as this is the firmware of "
+                                   "board rpi4; to mend: install the firmware of this board");
+    table.machine = "linux,dummy-virt";
+    machine.lines = 0;
+    check_system(&check);
+    assert_said(HAL_CHECK_FOUND, "machine: linux,dummy-virt");
+}
+
 static void test_cores(void **state)
 {
     static const struct {
@@ -191,6 +209,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_a_good_machine, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_machine, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_cores, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_governor, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_rights, set_up, tear_down),
