@@ -3,21 +3,10 @@
 # The service's files: systemd takes the unit, its commands are ones that the firmware takes, the bus has the bit rates of
 # a room that states none. usage: test_service.sh BUILD, from the tree's root
 set -u
+. tests/support/checks.sh
 wallwarp=$(realpath "$1")/wallwarp
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-passed=0
-failed=0
-
-# ok STATUS WHAT
-ok() {
-    if [ "$1" = 0 ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $2"
-    fi
-}
 
 # As it is installed, but with the program that was built.
 sed "s|/usr/local/bin/wallwarp|$wallwarp|; s|/etc/wallwarp/|$folder/|" board/service/wallwarp.service >"$folder/wallwarp.service"
@@ -62,5 +51,4 @@ for file in board/service/*; do
     ok $? "the page does not install $file"
 done
 
-echo "$passed passed, $failed failed"
-[ "$failed" = 0 ]
+ok_end

@@ -4,22 +4,10 @@
 # shellcheck disable=SC2016 # the made-up tools expand their own variables
 set -u
 unset DEBIAN_FRONTEND
-
-passed=0
-failed=0
+. tests/support/checks.sh
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-
-ok() {
-    if [ "$1" = 0 ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $2"
-        sed 's/^/    said: /' "$folder/said"
-        sed 's/^/    done: /' "$folder/done"
-    fi
-}
+ok_files="$folder/said $folder/done"
 
 # A new machine: $1 is its user's number, $2 its sudo (none, free, password or broken).
 machine() {
@@ -288,5 +276,4 @@ exits 1
 said 'expected one argument at most: demo, test, bench, board or flash'
 did_nothing
 
-echo "$passed passed, $failed failed"
-[ "$failed" = 0 ]
+ok_end

@@ -3,23 +3,12 @@
 # `wallwarp --check` and `--off` on the simulator's devices: what is said of each, exit status, nothing left behind.
 # usage: test_check.sh BUILD, from the tree's root
 set -u
+. tests/support/checks.sh
 wallwarp=$1/wallwarp
 room=sim/demo/room.yaml
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-passed=0
-failed=0
-
-# ok STATUS WHAT
-ok() {
-    if [ "$1" = 0 ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $2"
-        sed 's/^/    /' "$folder/out"
-    fi
-}
+ok_files=$folder/out
 
 # expect STATUS TEXT ARGUMENTS...: the program ends with the status, and prints a line that begins with the text
 expect() {
@@ -83,5 +72,4 @@ for text in 'The bus is a port of 127.0.0.1' 'the display a folder' 'not XRGB. E
     ok $? "--help has no: $text"
 done
 
-echo "$passed passed, $failed failed"
-[ "$failed" = 0 ]
+ok_end

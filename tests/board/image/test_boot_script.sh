@@ -4,8 +4,8 @@
 # it and libubootenv read the same in the boot state, whatever is broken. Each start ends with "cannot be started".
 # Usage, from the tree's root: tests/board/image/test_boot_script.sh
 set -u
-# shellcheck source=tests/board/virtual/checks.sh
-. tests/board/virtual/checks.sh
+# shellcheck source=tests/support/checks.sh
+. tests/support/checks.sh
 folder=build/boot_script
 disk=$folder/disk
 first=$((32 << 20))           # of partition state
@@ -46,19 +46,19 @@ start() {
 is() {
     start
     [ "$line" = "wallwarp: $2" ] && grep -q 'cannot be started\|no slot has' $folder/console
-    ok "$1: $line" $?
+    ok $? "$1: $line"
 }
 
 get() { fw_printenv -c $folder/fw_env.config -n "$1" 2>&1; }
 # set_: NAME=VALUE lines in. When both copies are broken it starts from nothing, and writes copy 1.
-set_() { fw_setenv -c $folder/fw_env.config -f /dev/null -s - >$folder/fw_setenv 2>&1 || ok "fw_setenv: $(cat $folder/fw_setenv)" 1; }
+set_() { fw_setenv -c $folder/fw_env.config -f /dev/null -s - >$folder/fw_setenv 2>&1 || ok 1 "fw_setenv: $(cat $folder/fw_setenv)"; }
 
 # has WHAT NAME VALUE: libubootenv reads this.
 has() {
     local value
     value=$(get "$2")
     [ "$value" = "$3" ]
-    ok "$1: $2=$value" $?
+    ok $? "$1: $2=$value"
 }
 
 # spoil OFFSET BYTES: overwrites that many from there.
@@ -88,7 +88,7 @@ has "none left to the first" BOOT_B_LEFT 0
 # gets WHAT ARGUMENTS: these follow the slot's own on the kernel's command line.
 gets() {
     tr -d '\r' <$folder/console | grep -qx "wallwarp: the kernel gets console=ttyAMA0 *$2"
-    ok "$1: $(grep -a 'the kernel gets' $folder/console)" $?
+    ok $? "$1: $(grep -a 'the kernel gets' $folder/console)"
 }
 
 gets "slot A" 'root=PARTLABEL=root-a rauc.slot=A *'

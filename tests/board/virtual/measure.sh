@@ -13,7 +13,7 @@ row() {
 at_most() {
     row "$1" "$2" "$3"
     awk -v value="$2" -v limit="$4" 'BEGIN { exit !(value != "" && value + 0 <= limit) }'
-    ok "$1: $2 $3, expected at most $4" $?
+    ok $? "$1: $2 $3, expected at most $4"
 }
 
 # measured OPTION...: the firmware, its takings from the heap and the pictures that it takes from its camera counted, with
@@ -108,7 +108,7 @@ moves() {
     vm_run 'sleep 0.3'
     vm_screenshot "$VM/second.ppm"
     ! cmp -s "$VM/first.ppm" "$VM/second.ppm"
-    ok "$1: the wall's picture changes with the camera's" $?
+    ok $? "$1: the wall's picture changes with the camera's"
 }
 
 # The table, on stdout and in FILE.

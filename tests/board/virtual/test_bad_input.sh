@@ -6,7 +6,7 @@
 # shellcheck disable=SC2016 # the board expands what is in the commands
 set -u
 . tests/board/virtual/vm.sh
-. tests/board/virtual/checks.sh
+. tests/support/checks.sh
 wallwarp=/tree/$1/wallwarp
 wallwarp_of_rpi4=/tree/$1/tests/board/virtual/wallwarp_of_rpi4
 
@@ -43,10 +43,10 @@ refused() {
     shift 2
     said "$command"
     [ "$status $freed" = '1 1' ]
-    ok "$what: status $status, expected 1; devices free: $freed, expected 1; said: $said" $?
+    ok $? "$what: status $status, expected 1; devices free: $freed, expected 1; said: $said"
     for word in 'wallwarp: ' "$@"; do
         [[ $last == *"$word"* ]]
-        ok "$what: said \"$last\", expected \"$word\" in it" $?
+        ok $? "$what: said \"$last\", expected \"$word\" in it"
     done
 }
 
@@ -56,10 +56,10 @@ checked() {
     shift 2
     said "$command"
     [ "$status $freed" = '1 1' ]
-    ok "--check, $what: status $status, expected 1; devices free: $freed, expected 1; said: $said" $?
+    ok $? "--check, $what: status $status, expected 1; devices free: $freed, expected 1; said: $said"
     for word in "$@"; do
         grep '^missing ' <<<"$said" | grep -qF -- "$word"
-        ok "--check, $what: expected a missing thing with \"$word\"; said: $said" $?
+        ok $? "--check, $what: expected a missing thing with \"$word\"; said: $said"
     done
 }
 
@@ -71,7 +71,7 @@ test_start() {
     said "$run >/share/run 2>&1 & firmware=\$!
         candump -n 1 -T 60000 can3,701:7FF >/share/heard; kill \$firmware; wait \$firmware"
     [ "$status $freed" = '0 1' ] && [ -s "$VM/share/heard" ]
-    ok "$1: the firmware lives and ends on SIGTERM; status $status, free $freed; said: $(cat "$VM/share/run")" $?
+    ok $? "$1: the firmware lives and ends on SIGTERM; status $status, free $freed; said: $(cat "$VM/share/run")"
 }
 
 # From when it says what it opens on, SIGTERM ends it as at any time. It comes while devices are opened when no heartbeat
@@ -86,19 +86,19 @@ test_end_while_opening() {
         [ -s "$VM/share/heard" ] || break
     done
     [ "$status $freed" = '0 1' ] && [[ $said == *'board "wall" on qemu-virt'* ]] && [ ! -s "$VM/share/heard" ]
-    ok "SIGTERM while devices are opened: status $status, free $freed, $try tries; said: $said" $?
+    ok $? "SIGTERM while devices are opened: status $status, free $freed, $try tries; said: $said"
 }
 
 test_check_finds_all() {
     local said status freed last word
     said "$run --check"
     [ "$status $freed" = '0 1' ] && ! grep -q '^missing' <<<"$said"
-    ok "--check of what is right: status $status, free $freed; said: $said" $?
+    ok $? "--check of what is right: status $status, free $freed; said: $said"
     for word in 'room: /share/room.yaml' 'can can2: 500000 bit/s FD, data 2000000' 'vivid' 'Virtual-1' \
         'line 0 (LED)' 'line 3 (lamp)' 'i6300ESB' 'real-time priority' 'locked memory' 'CAP_NET_ADMIN' 'arch_sys_counter' \
         'machine: linux,dummy-virt'; do
         grep '^found\|^advice' <<<"$said" | grep -qF "$word"
-        ok "--check finds $word; said: $said" $?
+        ok $? "--check finds $word; said: $said"
     done
 }
 
@@ -108,7 +108,7 @@ test_board() {
     checked "another board's firmware" "$wallwarp_of_rpi4 --check" 'machine: found linux,dummy-virt'
     said=$(vm_run "$wallwarp --help" | tr -s ' \n' '  ')
     [[ $said == *'The bus is a CAN interface'*'v4l2:/dev/video0'*'HDMI-A-1'*', 2 bad usage.'* && $said != *127.0.0.1* ]]
-    ok "--help tells of this board's devices: $said" $?
+    ok $? "--help tells of this board's devices: $said"
 }
 
 test_room() {
@@ -159,7 +159,7 @@ test_camera_that_changes() {
         v4l2-ctl -d /dev/video0 -c dv_timings=0; says again; kill \$firmware; wait \$firmware"
     [ "$status $freed" = '0 1' ] && [ "$(grep -c 'sends 720x480p, expected 640x480p' "$VM/share/run")" = 1 ] &&
         [ "$(grep -c 'delivers pictures again' "$VM/share/run")" = 1 ]
-    ok "a camera that changes its size: status $status, free $freed; said: $(cat "$VM/share/run")" $?
+    ok $? "a camera that changes its size: status $status, free $freed; said: $(cat "$VM/share/run")"
     vm_run 'v4l2-ctl -d /dev/video0 -c dv_timings_signal_mode=0; v4l2-ctl -d /dev/video0 -i 0 >/dev/null'
 }
 
@@ -181,7 +181,7 @@ test_lines() {
     refused "outputs off while a line is taken" "$wallwarp --off" gpiomon
     vm_run 'kill $(cat /share/taker); sleep 1'
     vm_run "$wallwarp --off"
-    ok "--off" $?
+    ok $? "--off"
 }
 
 # While another program has the watchdog, it is not free, whatever the firmware does.

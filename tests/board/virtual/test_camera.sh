@@ -6,7 +6,7 @@
 set -u
 build=${1:?usage: test_camera.sh BUILD}
 . tests/board/virtual/vm.sh
-. tests/board/virtual/checks.sh
+. tests/support/checks.sh
 probe=/tmp/probe_camera # a copy starts faster
 single=/dev/video20
 multi=/dev/video21
@@ -49,7 +49,7 @@ said() {
     local count
     count=$(grep -cF -- "$2" "$VM/share/$1")
     [ "$count" = "$3" ]
-    ok "$1: \"$2\" $3 times, found $count" $?
+    ok $? "$1: \"$2\" $3 times, found $count"
 }
 
 # refused TEXT NAME WIDTH HEIGHT [RATE]: it can't be opened, for this reason, and that is said in one line.
@@ -57,7 +57,7 @@ refused() {
     local out
     out=$(vm_run "$probe '$2' $3 $4 ${5-60} 1 5; echo status \$?")
     [[ $out == *"camera $2: "*"$1"*$'\n'"status 2" ]] # libcamera may say its own before
-    ok "$2 at $3x$4: expected \"$1\", found \"$out\"" $?
+    ok $? "$2 at $3x$4: expected \"$1\", found \"$out\""
 }
 
 # pixels DEVICE WIDTH HEIGHT [NAME=EXPECTED...]: format, matrix, row and middle of its pictures.
@@ -69,7 +69,7 @@ pixels() {
     mapfile -t out <<<"$out"
     for each in "$@"; do
         [ "${out[i]-}" = "${each#*=}" ]
-        ok "${each%%=*}: expected \"${each#*=}\", found \"${out[i]-}\"" $?
+        ok $? "${each%%=*}: expected \"${each#*=}\", found \"${out[i]-}\""
         i=$((i + 1))
     done
 }
@@ -95,7 +95,7 @@ even() {
     end=$(grep '^end' "$VM/share/$1")
     echo "$1: $end"
     awk -v kb="$2" -v bytes="$3" '/^end/ { exit !($9 > 0 && $11 - $9 <= kb && $15 - $13 <= bytes) }' <<<"$end"
-    ok "memory of $1 grew" $?
+    ok $? "memory of $1 grew"
 }
 
 # check_says ROOM TEXT...: wallwarp --check does, of the first camera of libcamera's.
@@ -105,21 +105,21 @@ check_says() {
     shift
     for text in "$@"; do
         [[ $out == *"$text"* ]]
-        ok "--check: expected \"$text\", found \"$out\"" $?
+        ok $? "--check: expected \"$text\", found \"$out\""
     done
 }
 
 test_many_pictures() {
     start many v4l2:$single 320 180 60 500 60 hold
     awaits many 'end pictures 500'
-    ok "500 pictures, four held at a time" $?
+    ok $? "500 pictures, four held at a time"
     even many 0 0
     [ "$(sed -n 's/^end .* full \([0-9]*\) .*/\1/p' "$VM/share/many")" -gt 400 ]
-    ok "a fifth one is not given" $?
+    ok $? "a fifth one is not given"
     awk '/^picture/ { if (n++ && ($2 <= before || $4 <= time)) exit 1; before = $2; time = $4 }' "$VM/share/many"
-    ok "sequence and time grow" $?
+    ok $? "sequence and time grow"
     awk '/^picture/ && ($6 < 0 || $6 > 1000000) { exit 1 }' "$VM/share/many"
-    ok "time is that of the picture" $?
+    ok $? "time is that of the picture"
 }
 
 test_refusals() {
@@ -143,33 +143,33 @@ test_hdmi() {
     control $hdmi dv_timings=$vga
     start hdmi v4l2:$hdmi 640 480 60 1000000 150
     awaits hdmi picture 10
-    ok "pictures of the right signal" $?
+    ok $? "pictures of the right signal"
     vm_run "v4l2-ctl -d $hdmi --get-edid=format=raw,file=/share/edid >/dev/null 2>&1"
     build/host/tests/hal/linux/print_edid 640 480 60 1 | cmp -n 128 - "$VM/share/edid" # the rest has vivid's address
-    ok "the receiver shows the room's EDID" $?
+    ok $? "the receiver shows the room's EDID"
     control $hdmi dv_timings_signal_mode=1
     awaits hdmi 'no HDMI signal'
-    ok "no signal is told" $?
+    ok $? "no signal is told"
     control $hdmi dv_timings_signal_mode=2
     awaits hdmi 'the HDMI signal is unsteady'
-    ok "an unsteady signal is told" $?
+    ok $? "an unsteady signal is told"
     control $hdmi dv_timings_signal_mode=0
     awaits hdmi 'delivers pictures again'
-    ok "the same signal again" $?
+    ok $? "the same signal again"
     control $hdmi dv_timings_signal_mode=4
     control $hdmi dv_timings=$hd
     awaits hdmi 'the HDMI source sends 1280x720p, expected 640x480p as the room file states'
-    ok "another size is told" $?
+    ok $? "another size is told"
     sleep 2
     control $hdmi dv_timings=$vga
     awaits hdmi 'delivers pictures again' 2
-    ok "right again" $?
+    ok $? "right again"
     said hdmi 'the HDMI source sends' 1
     control $hdmi disconnect=1
     awaits hdmi 'is gone; plug it in again'
-    ok "unplugged" $?
+    ok $? "unplugged"
     awaits hdmi 'delivers pictures again' 3
-    ok "back" $?
+    ok $? "back"
     said hdmi 'status io' 4 # and before the first picture
     vm_run 'kill $(pidof probe_camera)'
 }
@@ -178,11 +178,11 @@ test_no_signal_at_start() {
     control $hdmi dv_timings_signal_mode=1
     start late v4l2:$hdmi 640 480 60 20 60
     awaits late 'no HDMI signal'
-    ok "it opens without a signal" $?
+    ok $? "it opens without a signal"
     control $hdmi dv_timings_signal_mode=4
     control $hdmi dv_timings=$vga
     awaits late 'status 0'
-    ok "pictures come with it" $?
+    ok $? "pictures come with it"
     said late 'end pictures 20 ' 1
 }
 
@@ -190,17 +190,17 @@ test_no_signal_at_start() {
 test_module_back() {
     start module v4l2:vivid-000-vid-cap 320 180 60 1000000 150 hold
     awaits module picture 40
-    ok "found by its name" $?
+    ok $? "found by its name"
     vm_run 'for i in 0 1 2; do echo vivid.$i >/sys/bus/platform/drivers/vivid/unbind; done 2>/dev/null; true'
     awaits module 'is gone; plug it in again'
-    ok "gone" $?
+    ok $? "gone"
     vm_run 'for i in 1 2 3 4 5 6 7 8 9 10; do rmmod vivid 2>/dev/null && exit; sleep 0.5; done; rmmod vivid'
-    ok "nothing of the device is held, though pictures are" $?
+    ok $? "nothing of the device is held, though pictures are"
     awaits module 'no capture device of that name is here'
-    ok "absent" $?
+    ok $? "absent"
     vm_run "${load_vivid/=20,21,22/=30,31,32}"
     awaits module 'delivers pictures again'
-    ok "back under another number" $?
+    ok $? "back under another number"
     said module 'is gone' 1
     said module 'no capture device' 1
     vm_run 'kill $(pidof probe_camera); sleep 0.5; rmmod vivid'
@@ -210,7 +210,7 @@ test_module_back() {
 test_libcamera() {
     start vimc libcamera:0 48 48 30 100 60 hold # the smallest of its sizes
     awaits vimc 'status 0'
-    ok "100 pictures of vimc" $?
+    ok $? "100 pictures of vimc"
     even vimc 64 4096 # the library's own heap breathes
     said vimc ' rgb888 bt601 stride 144 ' 100
     refused 'of 636x480 at nearest, expected 640x480 as the room file states' libcamera:0 640 480
@@ -233,17 +233,17 @@ test_libcamera() {
 test_libcamera_gone() {
     start gone libcamera:0 48 48 30 1000000 20 hold
     awaits gone picture 20
-    ok "pictures before" $?
+    ok $? "pictures before"
     vm_run 'echo vimc.0 >/sys/bus/platform/drivers/vimc/unbind'
     awaits gone 'is gone, and libcamera'
-    ok "gone is told" $?
+    ok $? "gone is told"
     awaits gone 'status 1'
-    ok "the program ends by itself" $?
+    ok $? "the program ends by itself"
     said gone 'is gone' 1
     vm_run 'rmmod vimc && modprobe vimc && udevadm settle && sleep 1'
     start again libcamera:0 48 48 30 10 60
     awaits again 'status 0'
-    ok "a new program has it again" $?
+    ok $? "a new program has it again"
 }
 
 vm_start "${VM_SHARED:-build/vm}-camera" || exit 1

@@ -5,7 +5,7 @@
 # usage: tests/board/virtual/test_can.sh BUILD
 set -u
 . tests/board/virtual/vm.sh
-. tests/board/virtual/checks.sh
+. tests/support/checks.sh
 programs=/tree/$1/tests/board/virtual
 
 # check PROGRAM ARGUMENT...: runs it on the board; prints what it said if it fails.
@@ -14,12 +14,12 @@ check() {
     said=$(vm_run -t 120 "$programs/$*")
     status=$?
     [ $status = 0 ] || echo "$said"
-    ok "$*" $status
+    ok $status "$*"
 }
 
 vm_use || exit 1
 vm_run 'modprobe vcan && ip link add dev vcan0 type vcan'
-ok "a virtual interface" $?
+ok $? "a virtual interface"
 check check_hal_can vcan0 vcan0 classic
 check check_hal_can vcan0 vcan0 fd
 check check_hal_can can0 can1 classic

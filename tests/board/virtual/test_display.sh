@@ -7,7 +7,7 @@
 set -u
 build=${1:?usage: test_display.sh BUILD_FOLDER_OF_THE_BOARD}
 . tests/board/virtual/vm.sh
-. tests/board/virtual/checks.sh
+. tests/support/checks.sh
 probe=/run/probe_display
 scanout=/run/probe_scanout
 
@@ -47,21 +47,21 @@ test_picture() {
     see "$1" "$VM/before.ppm"
     for seed in 1 2; do
         hold "$1" $seed
-        ok "$1: a picture is shown" $?
+        ok $? "$1: a picture is shown"
         see "$1" "$VM/seen.ppm"
         vm_run "$probe picture 640 480 $seed" >"$VM/drawn.ppm"
         cmp "$VM/drawn.ppm" "$VM/seen.ppm"
-        ok "$1: what is seen is what was drawn, byte for byte" $?
+        ok $? "$1: what is seen is what was drawn, byte for byte"
         release
     done
     see "$1" "$VM/after.ppm"
     cmp "$VM/before.ppm" "$VM/after.ppm"
-    ok "$1: afterwards the display is as it was" $?
+    ok $? "$1: afterwards the display is as it was"
 }
 
 test_frames() {
     vm_run -t 120 "$probe frames $1:auto 640 480 60 60"
-    ok "$1: calls and blanks are as the contract says" $?
+    ok $? "$1: calls and blanks are as the contract says"
 }
 
 # Another program, no such mode, a wrong name: one line, exit status 1.
@@ -69,7 +69,7 @@ refuses() {
     local line
     line=$(vm_run "$probe hold $2 $3 60 1")
     [ $? -eq 1 ] && [[ $line =~ $4 ]] && [ "$(wc -l <<<"$line")" -eq 1 ]
-    ok "$1: $line" $?
+    ok $? "$1: $line"
 }
 
 test_refusals() {
@@ -86,14 +86,14 @@ test_cable() {
     local status="/sys/class/drm/$1-Virtual-*/status"
     hold "$1" 3
     vm_run "echo off >\$(echo $status)" && said dark
-    ok "$1: a pulled cable is noticed" $?
+    ok $? "$1: a pulled cable is noticed"
     refuses "nothing is connected" "$1:auto" "640 480" 'no projector at any connector'
     vm_run "echo on >\$(echo $status)" && said lit
-    ok "$1: the display comes back" $?
+    ok $? "$1: the display comes back"
     see "$1" "$VM/seen.ppm"
     vm_run "$probe picture 640 480 3" >"$VM/drawn.ppm"
     cmp "$VM/drawn.ppm" "$VM/seen.ppm"
-    ok "$1: with its picture" $?
+    ok $? "$1: with its picture"
     release
     vm_run "echo detect >\$(echo $status)"
 }
@@ -103,7 +103,7 @@ vm_start_counted "${VM_SHARED:-build/vm}-display" || exit 1
 vm_run "cp /tree/$build/tests/board/virtual/probe_display /tree/$build/tests/board/virtual/probe_scanout /run/"
 vm_in_memory $probe $scanout
 vm_run 'echo 0 >/sys/class/graphics/fbcon/cursor_blink; modprobe bochs; modprobe vkms; udevadm settle; ls /dev/dri/card0 /dev/dri/card1 /dev/dri/card2' >/dev/null
-ok "there are three displays" $?
+ok $? "there are three displays"
 for card in card0 card1 card2; do
     test_picture $card
     test_frames $card
@@ -111,5 +111,5 @@ for card in card0 card1 card2; do
 done
 test_refusals
 vm_run 'modprobe -r vkms && modprobe -r bochs && [ "$(ls -d /dev/dri/card*)" = /dev/dri/card0 ]'
-ok "the others can be taken away again" $?
+ok $? "the others can be taken away again"
 ok_end

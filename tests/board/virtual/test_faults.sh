@@ -9,7 +9,7 @@ build=${1:?usage: test_faults.sh BUILD_FOLDER_OF_THE_BOARD [BUILD_FOLDER_OF_THE_
 host=${2:-build/host}
 . tests/board/virtual/vm.sh
 . tests/board/virtual/firmware.sh
-. tests/board/virtual/checks.sh
+. tests/support/checks.sh
 
 pose="0 -1200 -800 0.9375 0 0.34375 0"
 bus_fault=1 bus_off=2 camera_fault=4 display_fault=8 # of Heartbeat, wallwarp.dbc
@@ -18,7 +18,7 @@ bus_fault=1 bus_off=2 camera_fault=4 display_fault=8 # of Heartbeat, wallwarp.db
 is() {
     local found
     comes "$1" && found="$(led) $(wall safe corrected before)" && [ "$found" = "$2 $3" ]
-    ok "${FUNCNAME[1]}: $1; LED and wall: ${found-}, expected $2 $3" $?
+    ok $? "${FUNCNAME[1]}: $1; LED and wall: ${found-}, expected $2 $3"
 }
 
 # is_well FAULTS: it runs as before, its heartbeats have named these faults since the mark, and name none any more.
@@ -27,23 +27,23 @@ is_well() {
     is running on corrected
     faults=$(said)
     [ "$faults" = "$1" ]
-    ok "${FUNCNAME[1]}: said faults $faults, expected $1" $?
+    ok $? "${FUNCNAME[1]}: said faults $faults, expected $1"
     mark
     vm_run 'sleep 1.5'
     comes running && [ "$(said)" = 0 ]
-    ok "${FUNCNAME[1]}: well again" $?
+    ok $? "${FUNCNAME[1]}: well again"
 }
 
 # has_ended STATUS: it did so; every device is free, and wall and lamp are as before the start.
 has_ended() {
     [ "$1" = "$2" ]
-    ok "${FUNCNAME[1]}: exit status $2, expected $1" $?
+    ok $? "${FUNCNAME[1]}: exit status $2, expected $1"
     vm_run '! pgrep wallwarp$ && ! gpioinfo wallwarp | grep -q wallwarp\" &&
         [ "$(cat /sys/class/watchdog/watchdog0/state)" = inactive ] &&
         ! ls -l /proc/[0-9]*/fd 2>/dev/null | grep -q " /dev/video0\$\| /dev/dri/card0\$"'
-    ok "${FUNCNAME[1]}: devices are free" $?
+    ok $? "${FUNCNAME[1]}: devices are free"
     [ "$(wall before) $(lamp)" = "before 0" ]
-    ok "${FUNCNAME[1]}: wall and lamp are as before the start" $?
+    ok $? "${FUNCNAME[1]}: wall and lamp are as before the start"
 }
 
 # refused ROOM WORDS: the firmware ends before it has begun, with one line that has these words.
@@ -51,7 +51,7 @@ refused() {
     local said
     said=$(vm_run "/tree/$build/wallwarp /share/$1 --node 1 --can can0; echo \$?" 2>&1)
     [ "$(wc -l <<<"$said")" = 2 ] && [[ $said == "wallwarp: "*"$2"* ]]
-    ok "$1: said \"$said\", expected one line with $2" $?
+    ok $? "$1: said \"$said\", expected one line with $2"
     has_ended 1 "${said##*$'\n'}"
 }
 
@@ -66,14 +66,14 @@ test_start() {
     start_firmware room.yaml can0
     is waiting slow safe
     [ "$(lamp)" = 1 ]
-    ok "the lamp is on" $?
+    ok $? "the lamp is on"
     mark
     start_poses can1 "$pose"
     comes running
     vm_screenshot "$VM/corrected.ppm"
     cmp -s "$VM/corrected.ppm" "$VM/safe.ppm" || cmp -s "$VM/corrected.ppm" "$VM/before.ppm"
     [ $? = 1 ]
-    ok "a picture that is no other" $?
+    ok $? "a picture that is no other"
     is_well 0
 }
 
@@ -81,7 +81,7 @@ test_no_poses() {
     end poses >/dev/null
     is safe slow safe
     came holding
-    ok "the last pose was held before" $?
+    ok $? "the last pose was held before"
     start_poses can1 "$pose"
     is_well $bus_fault
 }
@@ -89,7 +89,7 @@ test_no_poses() {
 test_link() {
     vm_run 'ip link set can0 down; sleep 1.2'
     [ "$(led) $(wall safe)" = "slow safe" ]
-    ok "link down: safe" $?
+    ok $? "link down: safe"
     vm_run 'ip link set can0 up'
     is_well $bus_fault
 }
@@ -98,14 +98,14 @@ test_link() {
 test_flood() {
     vm_run 'cangen can1 -g 0 -I 0 -L 8 -p 10 -n 20000'
     ! came safe
-    ok "flood: poses come" $?
+    ok $? "flood: poses come"
     is_well $bus_fault
 }
 
 test_camera() {
     vm_run 'echo vivid.0 >/sys/bus/platform/drivers/vivid/unbind
         for try in 1 2 3 4 5 6 7 8 9 10; do rmmod vivid 2>/dev/null && exit; sleep 0.2; done; rmmod vivid'
-    ok "the camera's module is removed" $?
+    ok $? "the camera's module is removed"
     is fault fast safe
     vm_run 'modprobe vivid'
     still_picture 4
@@ -144,7 +144,7 @@ done
 exit 1
 SCRIPT
     vm_run "taskset -c 0 bash /share/mid_frame $firmware_lines/sim_gpio1/value"
-    ok "SIGTERM in mid-frame" $?
+    ok $? "SIGTERM in mid-frame"
     has_ended 0 "$(end firmware)"
     end poses >/dev/null
     end heartbeats >/dev/null
@@ -163,7 +163,7 @@ test_full_disk_and_bus_off() {
     is_well $((bus_fault | bus_off))
     test_camera
     [ "$(vm_run 'wc -c </full/log')" = 4096 ]
-    ok "the disk is full" $?
+    ok $? "the disk is full"
     has_ended 0 "$(end firmware)"
     end poses >/dev/null
     end heartbeats >/dev/null
@@ -179,7 +179,7 @@ test_killed() {
     local off
     off=$(sed -n 's|^ExecStopPost=/usr/local/bin/wallwarp ||p' board/service/wallwarp.service)
     watchdog none
-    ok "a watchdog that does nothing" $?
+    ok $? "a watchdog that does nothing"
     heartbeats can1
     start_firmware room.yaml can0
     start_poses can1 "$pose"
@@ -187,15 +187,15 @@ test_killed() {
     # Its pull in place of a board that keeps a line's level when its program has gone; the kernel notes what is set.
     vm_run "echo pull-up >$firmware_lines/sim_gpio3/pull; kill -KILL \$(cat /share/firmware.pid)"
     [ "$(end firmware) $(lamp)" = "137 1" ]
-    ok "killed with the lamp on" $?
+    ok $? "killed with the lamp on"
     vm_run 'sleep 3'
     vm_has_event WATCHDOG
-    ok "the watchdog would reset the board" $?
+    ok $? "the watchdog would reset the board"
     vm_run "cd /sys/kernel/tracing; echo >trace; /tree/$build/wallwarp $off
         lamp=\$((\$(cat \$(dirname \$(grep -lx wallwarp /sys/class/gpio/*/label))/base) + 3))
         grep -q \"gpio_value: \$lamp set 0\" trace && ! grep -q \"gpio_value: \$lamp set 1\" trace
         status=\$?; echo pull-down >$firmware_lines/sim_gpio3/pull; exit \$status"
-    ok "$off drives the lamp's line low" $?
+    ok $? "$off drives the lamp's line low"
     start_firmware room.yaml can0
     mark
     is running on corrected
@@ -205,16 +205,16 @@ test_killed() {
 # The board keeps what it shows until it is reset.
 test_stopped() {
     watchdog reset
-    ok "a watchdog that resets the board" $?
+    ok $? "a watchdog that resets the board"
     start_firmware room.yaml can0
     mark
     comes running
     vm_run 'kill -STOP $(cat /share/firmware.pid)'
     [ "$(wall corrected)" = corrected ]
-    ok "a firmware that stands still keeps its picture" $?
+    ok $? "a firmware that stands still keeps its picture"
     vm_run 'sleep 3'
     [ $? = 125 ] && vm_has_event SHUTDOWN
-    ok "and is ended with its board by the watchdog" $?
+    ok $? "and is ended with its board by the watchdog"
 }
 
 trap vm_stop EXIT

@@ -5,13 +5,13 @@
 # usage: tests/board/virtual/test_gpio.sh BUILD
 set -u
 . tests/board/virtual/vm.sh
-. tests/board/virtual/checks.sh
+. tests/support/checks.sh
 
 vm_use || exit 1
 for program in check_hal_gpio check_gpio; do
     said=$(vm_run -t 120 "/tree/$1/tests/board/virtual/$program")
     status=$?
     [ $status = 0 ] || echo "$said"
-    ok "$program" $status
+    ok $status "$program"
 done
 ok_end

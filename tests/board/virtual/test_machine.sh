@@ -4,27 +4,27 @@
 # shellcheck disable=SC2016 # the board expands what is in the commands
 set -u
 . tests/board/virtual/vm.sh
-. tests/board/virtual/checks.sh
+. tests/support/checks.sh
 
 # has WHAT COMMAND EXPECTED: the command's output has a line with the words expected.
 has() {
     local said
     said=$(vm_run "$2")
     [[ $said == *"$3"* ]]
-    ok "$1: expected \"$3\", found \"$said\"" $?
+    ok $? "$1: expected \"$3\", found \"$said\""
 }
 
 test_root() {
     has "kernel" 'uname -srm' 'Linux 6.1'
     vm_run 'for tool in ip cansend candump isotpsend gpioset gpiomon v4l2-ctl cam modprobe udevadm; do
         command -v $tool >/dev/null || { echo "$tool is missing"; exit 1; }; done'
-    ok "tools of the root" $?
+    ok $? "tools of the root"
     has "memory and CPUs" 'nproc' 2
     vm_run 'touch /tree/x' >/dev/null
     [ $? = 1 ]
-    ok "the tree can not be written to" $?
+    ok $? "the tree can not be written to"
     vm_run 'echo changed >/usr/bin/changed' && [ ! -e build/sysroot/usr/bin/changed ]
-    ok "the root can, and the sysroot stays as it is" $?
+    ok $? "the root can, and the sysroot stays as it is"
     vm_run 'rm /usr/bin/changed'
 }
 
@@ -52,12 +52,12 @@ test_devices() {
 test_outside() {
     rm -f "$VM/picture.ppm"
     vm_screenshot "$VM/picture.ppm" && [ "$(head -n 3 "$VM/picture.ppm" | tr '\n' ' ')" = 'P6 1280 800 255 ' ]
-    ok "screenshot" $?
+    ok $? "screenshot"
     vm_screenshot /no/such/folder/picture.ppm 2>/dev/null
     [ $? = 1 ]
-    ok "a screenshot that can not be written is an error" $?
+    ok $? "a screenshot that can not be written is an error"
     [[ $(vm_monitor 'info status') == *'running'* ]]
-    ok "monitor" $?
+    ok $? "monitor"
 }
 
 test_jobs() {
@@ -65,19 +65,19 @@ test_jobs() {
     said=$(vm_run 'echo out; echo error >&2; exit 7')
     status=$?
     [ "$status $said" = $'7 out\nerror' ]
-    ok "output and exit status: found $status, \"$said\"" $?
+    ok $? "output and exit status: found $status, \"$said\""
     vm_run -t 1 'sleep 10'
     [ $? = 124 ]
-    ok "a command that takes too long" $?
+    ok $? "a command that takes too long"
     vm_run 'while [ ! -e /share/go ]; do sleep 0.1; done; echo first' >"$VM/first" &
     first=$!
     vm_run 'touch /share/go'
     wait $first
     [ "$(cat "$VM/first")" = first ]
-    ok "two commands at a time" $?
+    ok $? "two commands at a time"
     vm_run 'sleep 0 & sleep 1 & echo $! >/share/orphan'
     vm_run 'sleep 2; [ ! -e /proc/$(cat /share/orphan) ]'
-    ok "a process that lost its parent is buried" $?
+    ok $? "a process that lost its parent is buried"
 }
 
 vm_use || exit 1

@@ -11,7 +11,7 @@ set -u
 build=${1:?usage: test_measures.sh BUILD_FOLDER_OF_THE_BOARD [BUILD_FOLDER_OF_THE_HOST]}
 host=${2:-build/host}
 . tests/board/virtual/vm.sh
-. tests/board/virtual/checks.sh
+. tests/support/checks.sh
 . tests/board/virtual/picture.sh
 . tests/board/virtual/measure.sh
 
@@ -27,7 +27,7 @@ no_faults() {
     said=$(cat "$VM/share/firmware")
     flags=$(reported fault_flags)
     [ -n "$flags" ] && [ $((flags & ~1)) = 0 ]
-    ok "$1: fault flags $flags, expected 0 or 1; the firmware said: $said" $?
+    ok $? "$1: fault flags $flags, expected 0 or 1; the firmware said: $said"
 }
 
 # heap_rows WHAT: our code took nothing; who else took what.
@@ -39,14 +39,14 @@ heap_rows() {
     own=$(heap_grown | awk '$NF == "wallwarp" { sum += $1 } END { print sum + 0 }')
     at_most "$1: heap, our code" "$own" calls 0
     grep -q ' wallwarp *$' "$VM/share/before.heap"
-    ok "$1: what our code took at the start was counted" $?
+    ok $? "$1: what our code took at the start was counted"
 }
 
 memory_rows() {
     at_most "$1: growth of resident memory" "$(grown memory Rss:)" KB "$2"
     row "$1: resident memory" "$(awk '$1 == "Rss:" { print $2 }' "$VM/share/after.memory")" KB
     [ -s "$VM/share/before.memory" ] && [ -s "$VM/share/after.memory" ]
-    ok "$1: memory was measured" $?
+    ok $? "$1: memory was measured"
 }
 
 switch_rows() {
@@ -75,7 +75,7 @@ test_start() {
     row "$what: capture of pose to photon, as the board says" "$(reported photon_us)" us
     read -r mean worst made count < <(latencies)
     [ "${count:-0}" -gt 60 ]
-    ok "$what: pictures traced: ${count:-0}, expected more than 60" $?
+    ok $? "$what: pictures traced: ${count:-0}, expected more than 60"
     row "$what: newest pose on the wire to flip done, mean" "$mean" ms
     row "$what: newest pose on the wire to flip done, worst" "$worst" ms
     row "$what: begin of step to flip done, mean" "$made" ms
@@ -95,11 +95,11 @@ many() {
     measured_end
     frames=$(reported frames)
     [ "${frames:-0}" -ge "$expected" ]
-    ok "$what: $frames frames, expected $expected" $?
+    ok $? "$what: $frames frames, expected $expected"
     row "$what: frames" "$frames" ""
     pictures=$(grown camera taken)
     [ "$pictures" -ge 500 ]
-    ok "$what: $pictures pictures of the camera, expected 500" $?
+    ok $? "$what: $pictures pictures of the camera, expected 500"
     row "$what: pictures of the camera" "$pictures" ""
     memory_rows "$what" "$kb"
     heap_rows "$what"

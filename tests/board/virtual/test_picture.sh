@@ -8,7 +8,7 @@ set -u
 build=${1:?usage: test_picture.sh BUILD_FOLDER_OF_THE_BOARD [BUILD_FOLDER_OF_THE_HOST]}
 host=${2:-build/host}
 . tests/board/virtual/vm.sh
-. tests/board/virtual/checks.sh
+. tests/support/checks.sh
 . tests/board/virtual/picture.sh
 
 poses=("0 -1200 -800 0.9375 0 0.34375 0"
@@ -26,7 +26,7 @@ compare() {
             >/dev/null 2>&1 & echo \$! >/share/sender"
         want "${patterns[i]}" "${poses[i]}" classic
         shows can1 "$1"
-        ok "pose $i, $1: $differences" $?
+        ok $? "pose $i, $1: $differences"
         end sender
     done
 }
@@ -36,7 +36,7 @@ test_libcamera() {
     local pattern
     for pattern in 4 2; do
         record_vimc_frame $pattern
-        ok "vimc's pattern $pattern stands still" $?
+        ok $? "vimc's pattern $pattern stands still"
     done
     start_firmware "s/width: 320, height: 180/width: 318, height: 180/; s/method: .*/method: mean+cubic/" --can can0 \
         --camera libcamera:0
@@ -46,25 +46,25 @@ test_libcamera() {
         set_vimc_pattern $pattern
         want vimc-$pattern "${poses[0]}" classic
         shows can1 mean+cubic
-        ok "vimc's pattern $pattern, libcamera: $differences" $?
+        ok $? "vimc's pattern $pattern, libcamera: $differences"
     done
     end sender
     end pid
-    ok "libcamera: the firmware ends; it said: $(cat "$VM/share/firmware")" $?
+    ok $? "libcamera: the firmware ends; it said: $(cat "$VM/share/firmware")"
 }
 
 trap vm_stop EXIT
 picture_board build/vm-picture 320x240@24 || exit 1
 for pattern in "${patterns[@]}"; do
     record_frame "$pattern"
-    ok "pattern $pattern stands still" $?
+    ok $? "pattern $pattern stands still"
 done
 for method in mean+cubic gauss+linear none+nearest; do
     start_firmware "s/method: .*/method: $method/" --can can0
     compare $method
     end pid
     ended=$?
-    ok "$method: the firmware ends; it said: $(cat "$VM/share/firmware")" "$ended"
+    ok "$ended" "$method: the firmware ends; it said: $(cat "$VM/share/firmware")"
 done
 test_libcamera
 ok_end

@@ -6,7 +6,7 @@
 # usage: tests/board/virtual/test_watchdog.sh BUILD
 set -u
 . tests/board/virtual/vm.sh
-. tests/board/virtual/checks.sh
+. tests/support/checks.sh
 probe="/tree/$1/tests/board/virtual/probe_watchdog /dev/watchdog0"
 
 vm_use || exit 1
@@ -14,19 +14,19 @@ said=$(vm_run "$probe 6 close & sleep 2; $probe 1 close; wait")
 [ "$said" = "period 2 s
 watchdog /dev/watchdog0: held by another program (\`fuser /dev/watchdog0\`); if that is systemd, leave \
 RuntimeWatchdogSec out of system.conf" ]
-ok "fed for three periods, and for one program only: found \"$said\"" $?
+ok $? "fed for three periods, and for one program only: found \"$said\""
 vm_run 'sleep 4' && ! vm_has_event WATCHDOG
-ok "closed, it lets the board live" $?
+ok $? "closed, it lets the board live"
 vm_run "$probe 1 hang" >/dev/null
 [ $? = 125 ] && vm_has_event WATCHDOG
-ok "unfed by a program that hangs, it ends the board" $?
+ok $? "unfed by a program that hangs, it ends the board"
 vm_run true
 [ $? = 125 ]
-ok "a command for a board that is gone" $?
+ok $? "a command for a board that is gone"
 
 trap vm_stop EXIT
 vm_start "$VM-crash" || exit 1
 vm_run "$probe 1 crash; sleep 30" >/dev/null
 [ $? = 125 ] && vm_has_event WATCHDOG
-ok "unfed as its program is gone, it ends the board" $?
+ok $? "unfed as its program is gone, it ends the board"
 ok_end

@@ -7,7 +7,7 @@ set -u
 build=${1:?usage: test_wire.sh BUILD_FOLDER_OF_THE_BOARD [BUILD_FOLDER_OF_THE_HOST]}
 host=${2:-build/host}
 . tests/board/virtual/vm.sh
-. tests/board/virtual/checks.sh
+. tests/support/checks.sh
 . tests/board/virtual/picture.sh
 
 pattern=10
@@ -19,7 +19,7 @@ pose_of_cansend="-700 -1700 1000.75 0.984375 0 0.125 0.0625"
 wanted_is_shown() {
     want $pattern "$4" "$2"
     shows "$1" $method
-    ok "$2, $3: $differences" $?
+    ok $? "$2, $3: $differences"
 }
 
 # test_tool BUS KIND SEND_OPTION...: `wallwarp-pose send`, and what it says of time.
@@ -31,15 +31,15 @@ test_tool() {
     wanted_is_shown "$bus" "$kind" wallwarp-pose "$pose_of_tool"
     heard=$(vm_run "candump -n 8 -T 3000 $bus,040:7FF,080:7FF" | awk '{ printf "%s ", $2 }')
     [[ $heard == *'040 080 040 080 040 080 '* ]]
-    ok "$kind: pairs of Sync and FollowUp, heard $heard" $?
+    ok $? "$kind: pairs of Sync and FollowUp, heard $heard"
     # vivid does not keep the display's rate, so that the board can't be in step; all else is well.
     said=$(vm_run "/tree/$build/wallwarp-pose check --bus $bus --room /share/room.yaml --seconds 3")
     grep -q '^ok   bus time: given by number 0' <<<"$said" && grep -q '^ok   latency: ' <<<"$said" &&
         [ "$(grep -v '^ok' <<<"$said" | grep -vc 'in step in')" = 0 ]
-    ok "$kind: wallwarp-pose check: $said" $?
+    ok $? "$kind: wallwarp-pose check: $said"
     said=$(monitor "$bus")
     grep -Eq '^ *0  (fd|set) .* tracked ' <<<"$said" && grep -q '^ *1  running .* 0x000 ' <<<"$said"
-    ok "$kind: wallwarp-pose monitor: $said" $?
+    ok $? "$kind: wallwarp-pose monitor: $said"
     end sender
 }
 
@@ -56,18 +56,18 @@ test_cansend() {
 # that it is not.
 test_requests() {
     said=$(vm_run "/tree/$build/wallwarp-pose command hello --bus $1 --node 1")
-    ok "$2, command hello: $said" $?
+    ok $? "$2, command hello: $said"
     reply=$(vm_run "isotprecv -s 601 -d 641 $1 >/share/reply & sleep 0.2; echo 01 | isotpsend -s 601 -d 7FF -p CC:CC $1
         for i in 1 2 3 4 5 6 7 8 9 10; do [ -s /share/reply ] && break; sleep 0.2; done; kill \$! 2>/dev/null; cat /share/reply")
     text=$(xxd -r -p <<<"${reply:21}")
     [[ $reply == '81 00 01 '* && -n $text && $said == *"$text"* ]]
-    ok "$2, hello over the kernel's ISO-TP: heard $reply, $text; the tool heard: $said" $?
+    ok $? "$2, hello over the kernel's ISO-TP: heard $reply, $text; the tool heard: $said"
     said=$(vm_run "/tree/$build/wallwarp-pose command method mean+cubic --bus $1 --node 1 && sleep 1.2") &&
         said=$(monitor "$1") && grep -q '^ *1  .* mean+cubic, step 0$' <<<"$said"
-    ok "$2, command method: $said" $?
+    ok $? "$2, command method: $said"
     said=$(vm_run "/tree/$build/wallwarp-pose command method gauss+linear --bus $1 --node 1")
     [ "$?" = 1 ] && [[ $said == *'board 1 is not ready for this method; put it into the room file'* ]]
-    ok "$2, command method, not ready: $said" $?
+    ok $? "$2, command method, not ready: $said"
 }
 
 # test_wire KIND OF_BOARD OTHER SEND_OPTION...
@@ -80,14 +80,14 @@ test_wire() {
     test_requests "$bus" "$kind"
     end pid
     ended=$?
-    ok "$kind: the firmware ends; it said: $(cat "$VM/share/firmware")" "$ended"
+    ok "$ended" "$kind: the firmware ends; it said: $(cat "$VM/share/firmware")"
 }
 
 trap vm_stop EXIT
 picture_board build/vm-wire 320x240@24 || exit 1
 vm_in_memory /usr/bin/cansend
 record_frame $pattern
-ok "the camera's picture stands still" $?
+ok $? "the camera's picture stands still"
 test_wire classic can0 can1
 test_wire fd can2 can3 --fd
 ok_end
