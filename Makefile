@@ -166,8 +166,8 @@ all: setup-$(if $(CROSS),board,demo) ## Build firmware and tools into build/host
 programs: $(PROGRAMS:%=$(BUILD)/%) ## Build them, and install nothing
 
 # Install what is missing, once: see board/setup.sh.
-.PHONY: setup-demo setup-test setup-bench setup-board setup-flash
-setup-demo setup-test setup-bench setup-board setup-flash:
+.PHONY: setup-demo setup-test setup-bench setup-board setup-flash setup-image
+setup-demo setup-test setup-bench setup-board setup-flash setup-image:
 	$(Q)board/setup.sh $(@:setup-%=%)
 
 build/sysroot.made: board/sysroot.sh
@@ -293,7 +293,7 @@ build/board-kernel.made: tests/board/virtual/kernel.sh
 	$(if $(V),,@echo "  KERNEL build/board-kernel")
 	$(Q)tests/board/virtual/kernel.sh build/board-kernel
 	$(Q)touch $@
-build/board-kernel/initramfs.gz: tests/board/virtual/initramfs.sh tests/board/virtual/init.sh build/board-kernel.made \
+build/board-kernel/initramfs.gz: tests/board/virtual/initramfs.sh tests/board/virtual/init.sh board/initramfs.sh build/board-kernel.made \
     build/sysroot.made
 	$(Q)tests/board/virtual/initramfs.sh build/sysroot build/board-kernel
 
@@ -316,6 +316,30 @@ test-board: setup-test setup-board ## Boot a virtual arm64 board and run the fir
 	$(Q)$(MAKE) --no-print-directory BOARD=qemu-virt virtual-programs
 	$(Q)tests/board/virtual/run.sh build/test-board build/qemu-virt $(VIRTUAL_TESTS)
 virtual-programs: programs $(VIRTUAL_PROGRAMS) $(OTHER_BOARD) $(HEAP_COUNTER) build/board-kernel/initramfs.gz
+
+# --- images of cards --------------------------------------------------------------------------------------------------
+
+# Files in them have the time of the newest commit, so that the same tree gives the same bytes.
+IMAGE       := $(BUILD)/image
+IMAGE_EPOCH  = SOURCE_DATE_EPOCH=$${SOURCE_DATE_EPOCH-$$(git log -1 --format=%ct)}
+IMAGE_FILES := $(shell find board/image board/service board/$(BOARD) board/initramfs.sh -type f)
+
+.PHONY: image
+image: setup-image ## Make the image of a board's card: make BOARD=rpi4 image
+	$(Q)$(MAKE) --no-print-directory programs $(BUILD)/wallwarp-$(BOARD).img
+build/image.made: board/image/debian.sh board/debian.sh
+	$(if $(V),,@echo "  DEBIAN build/image")
+	$(Q)board/image/debian.sh build/image
+	$(Q)touch $@
+$(IMAGE)/root.squashfs: build/image.made $(IMAGE_FILES) $(PROGRAMS:%=$(BUILD)/%)
+	$(if $(V),,@echo "  ROOT  $@")
+	$(Q)$(IMAGE_EPOCH) board/image/root.sh $(BOARD) build/image $(IMAGE)
+$(IMAGE)/kernel.vfat: build/image.made $(IMAGE_FILES)
+	$(if $(V),,@echo "  SLOT  $@")
+	$(Q)$(IMAGE_EPOCH) board/image/slot.sh $(BOARD) build/image $(IMAGE)
+$(BUILD)/wallwarp-$(BOARD).img: $(IMAGE)/root.squashfs $(IMAGE)/kernel.vfat
+	$(if $(V),,@echo "  IMAGE $@")
+	$(Q)$(IMAGE_EPOCH) board/image/image.sh $(BOARD) $(IMAGE) $@
 
 # --- benchmarks -------------------------------------------------------------------------------------------------------
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Installs the packages that this tree needs and this machine lacks: board/setup.sh [demo|test|bench|board|flash]
+# Installs the packages that this tree needs and this machine lacks: board/setup.sh [demo|test|bench|board|flash|image]
 set -u
 
 packages_file=$(dirname "$0")/host/packages
@@ -50,9 +50,10 @@ go_on_without_apt() {
     case $group in
     test | bench) tools="$tools clang python3" ;;
     board) tools="$tools mmdebstrap aarch64-linux-gnu-g++ qemu-system-aarch64 modprobe cpio" ;;
+    image) tools="$tools mmdebstrap aarch64-linux-gnu-g++ modprobe cpio mke2fs mkimage systemd-sysusers" ;;
     esac
     case $group in
-    test | bench | flash) tools="$tools bmaptool sfdisk mcopy mkfs.vfat debugfs mksquashfs xz" ;;
+    test | bench | flash | image) tools="$tools bmaptool sfdisk mcopy mkfs.vfat debugfs mksquashfs xz" ;;
     esac
     [ "$group" != demo ] && [ "$group" != flash ] && tools="$tools aarch64-linux-gnu-gcc qemu-aarch64"
     [ "$group" = bench ] && tools="$tools llvm-objdump llvm-mca g++"
@@ -81,14 +82,15 @@ install_packages() {
 }
 
 group=${1-test}
-[ $# -le 1 ] || fail "expected one argument at most: demo, test, bench, board or flash"
+[ $# -le 1 ] || fail "expected one argument at most: demo, test, bench, board, flash or image"
 case $group in
 demo) needed=$(packages_of demo) ;;
 test) needed=$(packages_of demo arm test flash) ;;
 bench) needed=$(packages_of demo arm test flash bench) ;;
 board) needed=$(packages_of demo arm board) ;;
 flash) needed=$(packages_of demo flash) ;;
-*) fail "unknown argument '$group', expected demo, test, bench, board or flash" ;;
+image) needed=$(packages_of demo arm board flash image) ;;
+*) fail "unknown argument '$group', expected demo, test, bench, board, flash or image" ;;
 esac
 [ -n "$needed" ] || fail "$packages_file lists no packages"
 

@@ -270,10 +270,10 @@ name='wrong arguments'
 machine 0 none
 run everything
 exits 1
-said "unknown argument 'everything', expected demo, test, bench, board or flash"
+said "unknown argument 'everything', expected demo, test, bench, board, flash or image"
 run demo test
 exits 1
-said 'expected one argument at most: demo, test, bench, board or flash'
+said 'expected one argument at most: demo, test, bench, board, flash or image'
 did_nothing
 
 ok_end

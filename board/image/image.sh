@@ -1,0 +1,50 @@
+#!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
+# Puts a board's partitions together to the image of a card.
+#
+# usage: board/image/image.sh BOARD PARTS IMAGE
+set -eu
+[ $# = 3 ] || { echo "usage: board/image/image.sh BOARD PARTS IMAGE" >&2; exit 2; }
+here=$(dirname "$0")
+board=$1
+out=$2
+image=$3
+. "$here/fat.sh"
+
+card=$out/card
+rm -rf "$card"
+mkdir -p "$card"
+"$here/boot_script.sh" "$card/boot.scr"
+cp "board/$board/wallwarp.yaml" "$card/"
+[ ! -e "board/$board/room.yaml" ] || cp "board/$board/room.yaml" "$card/"
+fat_image "$out/card.vfat" 64 WALLWARP "$card"
+rm -f "$out/data.ext4"
+truncate -s 64M "$out/data.ext4"
+E2FSPROGS_FAKE_TIME=$SOURCE_DATE_EPOCH mke2fs -q -t ext4 -L data -U 7a11ba5e-0000-4000-8000-000000000007 \
+    -E hash_seed=7a11ba5e-0000-4000-8000-000000000008,lazy_itable_init=0,root_owner=0:0 "$out/data.ext4"
+
+rm -f "$image"
+truncate -s 900M "$image"
+sfdisk -q "$image" <<'END'
+label: gpt
+label-id: 7A11BA5E-0000-4000-8000-000000000000
+first-lba: 2048
+name=card, size=64MiB, type=EBD0A0A2-B9E5-4433-87C0-68B6B72699C7, attrs=LegacyBIOSBootable, uuid=7A11BA5E-0000-4000-8000-000000000001
+name=state, size=1MiB, type=L, uuid=7A11BA5E-0000-4000-8000-000000000002
+name=kernel-a, size=64MiB, type=EBD0A0A2-B9E5-4433-87C0-68B6B72699C7, uuid=7A11BA5E-0000-4000-8000-000000000003
+name=root-a, size=256MiB, type=L, uuid=7A11BA5E-0000-4000-8000-000000000004
+name=kernel-b, size=64MiB, type=EBD0A0A2-B9E5-4433-87C0-68B6B72699C7, uuid=7A11BA5E-0000-4000-8000-000000000005
+name=root-b, size=256MiB, type=L, uuid=7A11BA5E-0000-4000-8000-000000000006
+name=data, size=64MiB, type=L, uuid=7A11BA5E-0000-4000-8000-000000000007
+END
+put() {
+    local start
+    start=$(sfdisk -d "$image" | sed -n "s/.*start= *\([0-9]*\),.*name=\"$1\".*/\1/p")
+    dd if="$2" of="$image" bs=512 seek="$start" conv=notrunc,sparse status=none
+}
+put card "$out/card.vfat"
+put kernel-a "$out/kernel.vfat"
+put root-a "$out/root.squashfs"
+put kernel-b "$out/kernel.vfat"
+put root-b "$out/root.squashfs"
+put data "$out/data.ext4"
