@@ -65,8 +65,8 @@ TESTS   := $(patsubst tests/%.c,$(BUILD)/tests/%,$(TESTS_C))
 SUPPORT_C := $(wildcard tests/support/*.c)
 # Programs that the scripts among the tests run, and plugins for two of them.
 HELPERS := $(BUILD)/tests/sim/bus/serve_bus $(BUILD)/tests/hal/linux/print_edid \
-           $(addprefix $(BUILD)/tests/firmware/,print_frames print_reports agreement_hour) $(BUILD)/count_plugin.so \
-           $(BUILD)/cache_plugin.so
+           $(addprefix $(BUILD)/tests/firmware/,print_frames print_reports agreement_hour) \
+           $(BUILD)/tests/board/picture_tool $(BUILD)/count_plugin.so $(BUILD)/cache_plugin.so
 
 # --- compile and link -------------------------------------------------------------------------------------------------
 

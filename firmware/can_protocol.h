@@ -147,8 +147,8 @@ typedef enum {
 /** @return In one word: "running"; "unknown" when out of range. */
 const char *can_board_state_name(can_board_state_t state);
 
-/** Faults of the board: the camera's and the session's as they are at the moment of sending, the others since the last
- *  heartbeat. Bits are never reused for something else. */
+/** Faults of the board: the camera's, the session's and the configuration's as they are at the moment of sending, the
+ *  others since the last heartbeat. Bits are never reused for something else. */
 typedef enum {
     CAN_FAULT_BUS = 1 << 0,      /**< frames were refused or lost */
     CAN_FAULT_BUS_OFF = 1 << 1,  /**< the controller was bus-off */
@@ -158,7 +158,8 @@ typedef enum {
     CAN_FAULT_WATCHDOG = 1 << 5, /**< the watchdog could not be fed */
     CAN_FAULT_DEADLINE = 1 << 6, /**< a picture was not ready at its vertical blank */
     CAN_FAULT_REFUSED = 1 << 7,  /**< messages or commands were not authentic (bus_auth.h) */
-    CAN_FAULT_SESSION = 1 << 8   /**< the board has a key, and wants to be told a session */
+    CAN_FAULT_SESSION = 1 << 8,  /**< the board has a key, and wants to be told a session */
+    CAN_FAULT_CONFIG = 1 << 9    /**< the board can't do its work: configuration, room, key or a device (notice.h) */
 } can_fault_flag_t;
 
 /** A board's sign of life, every CAN_HEARTBEAT_PERIOD_MS. */

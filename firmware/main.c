@@ -3,10 +3,14 @@
 #include <signal.h>
 #include <stdio.h>
 
+#include "firmware/notice.h"
 #include "firmware/projector.h"
 #include "firmware/self_check.h"
 
 enum { DONE = 0, FAILED = 1 };
+
+/* A device may come, or be mended: after so long with a notice whoever started the firmware may start it again. */
+static const int64_t notice_us = 10000000;
 
 static volatile sig_atomic_t stop_requested;
 
@@ -25,17 +29,68 @@ static bool open_board(hal_board_t *board, const board_table_t *devices, const s
     return hal_board_open(board, devices, &needs, error) == HAL_OK;
 }
 
-static void run(const setup_t *setup, const hal_board_t *board, const warp_kernels_t *kernels)
+static void wait_for_blank(const hal_board_t *board)
+{
+    if (hal_display_wait_vblank(board->display) != HAL_OK) {
+        /* no display: the call has waited all the same, and the next step counts it */
+    }
+}
+
+static void run(projector_t *projector, const setup_t *setup, const hal_board_t *board, const warp_kernels_t *kernels)
+{
+    projector_init(projector, &setup->room, setup->board, board, kernels);
+    projector_use_key(projector, setup->auth, setup->seed);
+    while (!stop_requested) {
+        projector_step(projector);
+        wait_for_blank(board);
+    }
+}
+
+/* Only say what is wrong: until somebody ends that, or, of a device, for a while. */
+static int say(projector_t *projector, const notice_t *notice, setup_t *setup, board_table_t *devices, bool of_device)
+{
+    char error[HAL_BOARD_ERROR_LENGTH];
+    hal_board_t board;
+    if (notice->node == 0)
+        devices->can = NULL;
+    if (hal_board_open_some(&board, devices, error) != HAL_OK) {
+        fprintf(stderr, "wallwarp: %s\n", error);
+        return FAILED;
+    }
+    notice_init(projector, notice, &board, &setup->room);
+    projector_use_key(projector, setup->auth, setup->seed);
+    const int64_t end_us = hal_time_now_us(board.clock) + notice_us;
+    while (!stop_requested && !(of_device && hal_time_now_us(board.clock) >= end_us)) {
+        notice_step(projector, notice);
+        wait_for_blank(&board);
+    }
+    hal_board_close(&board);
+    return stop_requested ? DONE : FAILED;
+}
+
+/* Read the setup, then be a projector until somebody ends that. */
+static int work(setup_t *setup, options_t *options)
 {
     static projector_t projector;
-    projector_init(&projector, &setup->room, setup->board, board, kernels);
-    projector_use_key(&projector, setup->auth, setup->seed);
-    while (!stop_requested) {
-        projector_step(&projector);
-        if (hal_display_wait_vblank(board->display) != HAL_OK) {
-            /* no display: the call has waited all the same, and the next step counts it */
-        }
+    char error[ROOM_MESSAGE_LENGTH];
+    hal_board_t board;
+    const bool config = setup_read_config(setup, options, error), key = config && setup_read_key(setup, options, error),
+               known = key && setup_read_room(setup, options, error);
+    board_table_t devices = options_devices(options);
+    int status = DONE;
+    signal(SIGINT, request_stop); /* before there is anything to set back: a running watchdog, a lit display */
+    signal(SIGTERM, request_stop);
+    if (known && open_board(&board, &devices, setup, error)) {
+        run(&projector, setup, &board, options->kernels);
+        hal_board_close(&board);
+    } else {
+        notice_t notice = {.reason = error, .node = options->node, .deaf = !key};
+        (void)snprintf(notice.board, sizeof notice.board, "%s", known ? setup->board->name : devices.name);
+        fprintf(stderr, "wallwarp: %s\n", error);
+        status = options->config == NULL ? FAILED : say(&projector, &notice, setup, &devices, known);
     }
+    setup_close(setup);
+    return status;
 }
 
 static int switch_off(const board_table_t *devices)
@@ -45,27 +100,6 @@ static int switch_off(const board_table_t *devices)
         return DONE;
     fprintf(stderr, "wallwarp: %s\n", error);
     return FAILED;
-}
-
-/* Read the setup, then be a projector until somebody ends that. */
-static int work(setup_t *setup, options_t *options)
-{
-    char error[ROOM_MESSAGE_LENGTH];
-    hal_board_t board;
-    bool good = setup_read_config(setup, options, error) && setup_read_room(setup, options, error) &&
-                setup_read_key(setup, options, error);
-    signal(SIGINT, request_stop); /* before there is anything to set back: a running watchdog, a lit display */
-    signal(SIGTERM, request_stop);
-    const board_table_t devices = options_devices(options);
-    good = good && open_board(&board, &devices, setup, error);
-    if (good) {
-        run(setup, &board, options->kernels);
-        hal_board_close(&board);
-    } else {
-        fprintf(stderr, "wallwarp: %s\n", error);
-    }
-    setup_close(setup);
-    return good ? DONE : FAILED;
 }
 
 int main(int argc, char **argv)

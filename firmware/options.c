@@ -12,7 +12,9 @@ enum { KEY_CONFIG = 256, KEY_CAN, KEY_CAMERA, KEY_DISPLAY, KEY_KERNELS, KEY_WORK
 
 static const struct argp_option option_table[] = {
     {"node", 'n', "N", 0, "Node number of this board in the room file; needed, here or in --config", 0},
-    {"config", KEY_CONFIG, "FILE", 0, "The board's own file, wallwarp.yaml: it has what is not given here", 0},
+    {"config", KEY_CONFIG, "FILE", 0,
+     "The board's own file, wallwarp.yaml: it has what is not given here; what is wrong with it is told by the wall",
+     0},
     {"can", KEY_CAN, "NAME", 0, "Bus, in place of the board's own", 0},
     {"camera", KEY_CAMERA, "NAME", 0, "Video source, in place of the board's own", 0},
     {"display", KEY_DISPLAY, "NAME", 0, "Display, in place of the board's own", 0},

@@ -2,10 +2,11 @@
 // The loop body: the stages of a frame by name, in order.
 #include "firmware/projector.h"
 
+#include <string.h>
+
 #include "firmware/bus_receive.h"
 #include "firmware/pattern_picture.h"
-#include "firmware/safe_picture.h"
-#include "firmware/state_led.h"
+#include "firmware/safe_reason.h"
 #include "firmware/warp_steps.h"
 
 _Static_assert((int)ROOM_VIEWERS == (int)CAN_VIEWERS, "a room file may name every viewer");
@@ -27,6 +28,8 @@ void projector_init(projector_t *projector, const room_t *room, const room_board
 {
     projector->board = *devices;
     projector->node = board->node;
+    memcpy(projector->name, board->name, sizeof projector->name);
+    projector->unusable = false;
     projector->camera = room->camera;
     projector->wall = board->wall;
     projector->kernels = kernels;
@@ -136,12 +139,13 @@ static void draw(projector_t *p, const picture_t *panel)
 {
     const bool wanted = p->report.state == CAN_BOARD_RUNNING || p->report.state == CAN_BOARD_HOLDING;
     p->report.corrected = wanted && draw_corrected(p, panel);
+    p->report.safe = (safe_picture_t){p->name, p->node, safe_reason(p)};
     if (wanted && !p->report.corrected)
         p->report.state = CAN_BOARD_FAULT;
     if (p->report.state == CAN_BOARD_PATTERN)
         pattern_picture_draw(panel, p->commands.pattern);
     else if (!p->report.corrected)
-        safe_picture_draw(panel, p->node);
+        safe_picture_draw(panel, &p->report.safe);
 }
 
 /* End a stage that began at begin_us. @return When it ended. */
@@ -215,25 +219,10 @@ static void note_agreement(projector_t *p)
         telemetry_add_photon(&p->telemetry, p->report.pose_to_photon_us);
 }
 
-static void drive(projector_t *p, hal_gpio_line_t line, bool high)
-{
-    if (hal_gpio_set(p->board.gpio, line, high) != HAL_OK)
-        p->faults.gpio++;
-}
-
-static void tell_life(projector_t *p, bool alive, int64_t now_us)
-{
-    const bool showing = p->report.frame_number > 0;
-    const hal_service_report_t report = {now_us, can_board_state_name(p->report.state), showing, alive};
-    if (alive && hal_watchdog_feed(p->board.watchdog) != HAL_OK)
-        p->faults.watchdog++;
-    hal_service_report(p->board.service, &report);
-}
-
 void projector_step(projector_t *p)
 {
     const int64_t now_us = end_stage(p, STAGE_WAIT, p->shown_us);
-    drive(p, HAL_GPIO_STROBE, true);
+    projector_drive(p, HAL_GPIO_STROBE, true);
     const bus_receivers_t receivers = {&p->poses,         &p->time,       &p->choice.clock,
                                        &p->commands.link, &p->can_faults, &p->auth};
     bus_receive(&receivers, p->board.can); /* bus -> checked poses, bus time, numbers of refreshes, requests */
@@ -255,11 +244,10 @@ void projector_step(projector_t *p)
     note_agreement(p);
     stage_times_add(&p->stage_times, &p->report.times);
     projector_choose_method(p, deadline_us - now_us); /* what this one took -> the next picture's method */
-    drive(p, HAL_GPIO_STROBE, false);
-    drive(p, HAL_GPIO_LED, state_led_level(p->report.state, now_us));
-    drive(p, HAL_GPIO_LAMP, p->report.frame_number > 0); /* light only what is meant to be seen */
-    telemetry_send(p, now_us);                           /* what was shown, and how the board does -> bus */
+    projector_drive(p, HAL_GPIO_STROBE, false);
+    projector_light(p, now_us); /* -> LED, lamp */
+    telemetry_send(p, now_us);  /* what was shown, and how the board does -> bus */
     event_watch_step(p, now_us);
-    tell_life(p, healthy && !commands_reboot(&p->commands), now_us); /* -> watchdog, service manager */
-    update_step(p, now_us);                                          /* -> update agent */
+    projector_tell_life(p, can_board_state_name(p->report.state), healthy, now_us); /* -> watchdog, service manager */
+    update_step(p, now_us);                                                         /* -> update agent */
 }

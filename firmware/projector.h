@@ -15,6 +15,7 @@
 #include "firmware/ladder.h"
 #include "firmware/pose_from_can.h"
 #include "firmware/room.h"
+#include "firmware/safe_picture.h"
 #include "firmware/stage_times.h"
 #include "firmware/telemetry.h"
 #include "firmware/update.h"
@@ -45,6 +46,7 @@ typedef struct {
 typedef struct {
     can_board_state_t state;
     bool corrected;        /**< the presented picture is a warped one, not the safe picture */
+    safe_picture_t safe;   /**< what that says, if it is the one */
     uint32_t frame_number; /**< pictures presented since start */
     pose_t pose;           /**< that it was warped with; */
     uint8_t pose_counter;  /**< the tracker's, of the one that it was drawn with */
@@ -60,6 +62,8 @@ typedef struct {
 struct projector {
     hal_board_t board;
     int32_t node;
+    char name[ROOM_NAME_LENGTH];
+    bool unusable; /**< configuration, room, key or a device: it only says so (notice.h) */
     camera_t camera;
     wall_t wall;
     const warp_kernels_t *kernels;
@@ -114,6 +118,20 @@ void projector_keep_method(projector_t *projector);
 /** Make the next pictures with projector->ladder: its first method, which the warp must be ready for, and as stand-ins
  *  those that follow it, up to the first that the warp is not ready for. */
 void projector_begin_ladder(projector_t *projector);
+
+/** Drive a line, and count it when that fails. */
+void projector_drive(projector_t *projector, hal_gpio_line_t line, bool high);
+
+/** LED and lamp as they belong to the newest step's report. */
+void projector_light(projector_t *projector, int64_t now_us);
+
+/**
+ * Feed the watchdog, unless a reboot is asked for, and tell the service manager.
+ *
+ * @param state    In a few words, for people; stays as it is for as long as the board is open.
+ * @param healthy  On the terms of hal_watchdog_feed().
+ */
+void projector_tell_life(projector_t *projector, const char *state, bool healthy, int64_t now_us);
 
 /** Choose the next picture's method by what this one took. @param time_us  There was for it. */
 void projector_choose_method(projector_t *projector, int64_t time_us);

@@ -20,7 +20,7 @@ typedef struct {
 } setup_t;
 
 /**
- * Read what the options name. Each step can be made when those before it were; start-up only. Odd but workable things
+ * Read what the options name, the configuration first; start-up only. Odd but workable things
  * are told on stderr.
  *
  * @param[in,out] options  setup_read_config() completes them from the configuration; without one, nothing is done.

@@ -43,6 +43,7 @@ static uint32_t fault_flags(projector_t *p, int64_t now_us)
     flags |= flag_if_new(&t->seen_deadline, p->faults.deadline, CAN_FAULT_DEADLINE);
     flags |= flag_if_new(&t->seen_refused, can_faults_refused(&p->can_faults), CAN_FAULT_REFUSED);
     flags |= bus_auth_wants_session(&p->auth, now_us) ? (uint32_t)CAN_FAULT_SESSION : 0;
+    flags |= p->unusable ? (uint32_t)CAN_FAULT_CONFIG : 0;
     return flags;
 }
 
@@ -278,8 +279,14 @@ void telemetry_send(projector_t *projector, int64_t now_us)
         t->update_due_us = now_us + CAN_UPDATE_PERIOD_MS * 1000;
         send_update(projector);
     }
-    if (now_us >= t->heartbeat_due_us) {
-        t->heartbeat_due_us = now_us + CAN_HEARTBEAT_PERIOD_MS * 1000;
-        send_heartbeat(projector, now_us);
-    }
+    telemetry_send_life(projector, now_us);
+}
+
+void telemetry_send_life(projector_t *projector, int64_t now_us)
+{
+    telemetry_t *t = &projector->telemetry;
+    if (now_us < t->heartbeat_due_us)
+        return;
+    t->heartbeat_due_us = now_us + CAN_HEARTBEAT_PERIOD_MS * 1000;
+    send_heartbeat(projector, now_us);
 }

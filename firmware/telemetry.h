@@ -34,4 +34,7 @@ void telemetry_add_photon(telemetry_t *telemetry, int32_t pose_to_photon_us);
  *  update and heartbeat, each after its CAN_..._PERIOD_MS. Call it once a refresh. Never blocks. */
 void telemetry_send(projector_t *projector, int64_t now_us);
 
+/** Send the heartbeat alone, when it is due: for a board that can't do its work. */
+void telemetry_send_life(projector_t *projector, int64_t now_us);
+
 #endif

@@ -47,6 +47,7 @@ int64_t hal_display_next_vblank_us(const hal_display_t *display);
 /**
  * Sleep until the next vertical blank: the firmware's only wait.
  *
+ * @param display  NULL where hal_board_open_some() found none: the call takes 20 ms.
  * @return HAL_OK after the blank; HAL_IO when there is no display (gone, cable out), at the time of the blank that it
  *         would have had, so that the loop keeps its pace; HAL_IO when none came within 100 ms, and from then on at the
  *         time of each that should come. Go on all the same.

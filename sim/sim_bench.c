@@ -65,10 +65,12 @@ static void move_world(void *context)
     bench_t *b = context;
     const int64_t now_us = hal_time_now_us(b->devices.clock);
     char error[FILE_ERROR_LENGTH];
-    socketcand_server_poll(b->server);
-    sim_bus_advance(b->bus, now_us);
-    socketcand_server_poll(b->server);
-    const bool camera_ok = sim_camera_advance(b->devices.camera, now_us, error);
+    if (b->server != NULL) {
+        socketcand_server_poll(b->server);
+        sim_bus_advance(b->bus, now_us);
+        socketcand_server_poll(b->server);
+    }
+    const bool camera_ok = b->devices.camera == NULL || sim_camera_advance(b->devices.camera, now_us, error);
     if (!camera_ok && !b->camera_failed)
         fprintf(stderr, "wallwarp: camera: %s\n", error);
     b->camera_failed = !camera_ok;
@@ -152,23 +154,34 @@ static bool open_display(bench_t *b, const board_table_t *table, const hal_board
     return true;
 }
 
-hal_status_t hal_board_open(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
-                            char error[HAL_BOARD_ERROR_LENGTH])
+/* The devices that need no more than the clock. */
+static bool open_rest(bench_t *b, char error[HAL_BOARD_ERROR_LENGTH])
+{
+    b->devices.gpio = sim_gpio_create(b->devices.clock, error);
+    b->devices.watchdog = b->devices.gpio == NULL ? NULL : sim_watchdog_create(b->devices.clock, WATCHDOG_US, error);
+    b->devices.service = b->devices.watchdog == NULL ? NULL : sim_service_create(error);
+    return b->devices.service != NULL;
+}
+
+/* @return A bench with its clock; NULL: no memory. */
+static bench_t *begin(char error[HAL_BOARD_ERROR_LENGTH])
 {
     const sim_clock_settings_t clock = {.real = true};
     bench_t *b = calloc(1, sizeof *b);
     if (b == NULL) {
         file_error(error, "bench", "out of memory");
-        return HAL_IO;
+        return NULL;
     }
     b->devices.own = b;
     b->devices.clock = sim_clock_create(&clock, error);
-    bool ok = b->devices.clock != NULL && open_bus(b, table, needs, error) && open_camera(b, table, needs, error) &&
-              open_display(b, table, needs, error);
-    b->devices.gpio = ok ? sim_gpio_create(b->devices.clock, error) : NULL;
-    b->devices.watchdog = b->devices.gpio == NULL ? NULL : sim_watchdog_create(b->devices.clock, WATCHDOG_US, error);
-    b->devices.service = b->devices.watchdog == NULL ? NULL : sim_service_create(error);
-    ok = b->devices.service != NULL && hal_workers_open(&b->devices.workers, &table->workers, error) == HAL_OK;
+    if (b->devices.clock != NULL)
+        return b;
+    hal_board_close(&b->devices);
+    return NULL;
+}
+
+static hal_status_t finish(bench_t *b, bool ok, hal_board_t *board)
+{
     if (!ok) {
         hal_board_close(&b->devices);
         return HAL_IO;
@@ -176,6 +189,43 @@ hal_status_t hal_board_open(hal_board_t *board, const board_table_t *table, cons
     *board = b->devices;
     move_world(b); /* the camera's first picture is there for the first step */
     return HAL_OK;
+}
+
+hal_status_t hal_board_open(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                            char error[HAL_BOARD_ERROR_LENGTH])
+{
+    bench_t *b = begin(error);
+    if (b == NULL)
+        return HAL_IO;
+    const bool ok = open_bus(b, table, needs, error) && open_camera(b, table, needs, error) &&
+                    open_display(b, table, needs, error) && open_rest(b, error) &&
+                    hal_workers_open(&b->devices.workers, &table->workers, error) == HAL_OK;
+    return finish(b, ok, board);
+}
+
+hal_status_t hal_board_open_some(hal_board_t *board, const board_table_t *table, char error[HAL_BOARD_ERROR_LENGTH])
+{
+    const hal_board_needs_t usual = {.panel_width = 1280,
+                                     .panel_height = 800,
+                                     .refresh_frames = 60,
+                                     .refresh_seconds = 1,
+                                     .bitrate = 500000,
+                                     .data_bitrate = 2000000,
+                                     .fd = true};
+    const board_table_t dark = {.display = "none"};
+    bench_t *b = begin(error);
+    if (b == NULL)
+        return HAL_IO;
+    if (table->can != NULL && !open_bus(b, table, &usual, error)) {
+        fprintf(stderr, "wallwarp: %s\n", error);
+        b->devices.can = NULL;
+    }
+    bool ok = open_display(b, table, &usual, error);
+    if (!ok) {
+        fprintf(stderr, "wallwarp: %s\n", error);
+        ok = open_display(b, &dark, &usual, error);
+    }
+    return finish(b, ok && open_rest(b, error), board);
 }
 
 void hal_board_close(hal_board_t *board)

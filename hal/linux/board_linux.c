@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A board that runs Linux: hal_board_open() with its real devices.
 #include <stddef.h>
+#include <stdio.h>
 
 #include "hal/hal_board.h"
 #include "hal/linux/camera.h"
@@ -173,16 +174,47 @@ static void close_watchdog(hal_board_t *board)
     watchdog_linux_close(board->watchdog);
 }
 
+/* Of what hal_board_open_some() opens: another one in its place. */
+static hal_status_t open_any_display(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                                     char error[HAL_BOARD_ERROR_LENGTH])
+{
+    board_table_t any = *table;
+    any.display = "auto";
+    return open_display(board, &any, needs, error);
+}
+
+static hal_status_t open_no_lines(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                                  char error[HAL_BOARD_ERROR_LENGTH])
+{
+    const board_table_t none = {.name = table->name};
+    return open_lines(board, &none, needs, error);
+}
+
+static hal_status_t open_no_watchdog(hal_board_t *board, const board_table_t *table, const hal_board_needs_t *needs,
+                                     char error[HAL_BOARD_ERROR_LENGTH])
+{
+    const board_table_t none = {.name = table->name};
+    return open_watchdog(board, &none, needs, error);
+}
+
 /* In order. The lines come after the display, so that the lamp is off before the wall shows the former picture; the
    watchdog is last, as it runs from open on. */
 static const struct {
     open_fn *open;
     close_fn *close;
+    bool some;         /* hal_board_open_some() opens it, */
+    open_fn *in_place; /* or that in its place */
 } devices[] = {
-    {open_clock, close_clock},       {open_realtime, close_realtime}, {open_can, close_can},
-    {open_camera, close_camera},     {open_display, close_display},   {open_lines, close_lines},
-    {open_service, close_service},   {open_update, close_update},     {open_workers, close_workers},
-    {open_watchdog, close_watchdog},
+    {open_clock, close_clock, true, NULL},
+    {open_realtime, close_realtime, false, NULL},
+    {open_can, close_can, true, NULL},
+    {open_camera, close_camera, false, NULL},
+    {open_display, close_display, true, open_any_display},
+    {open_lines, close_lines, true, open_no_lines},
+    {open_service, close_service, true, NULL},
+    {open_update, close_update, false, NULL},
+    {open_workers, close_workers, false, NULL},
+    {open_watchdog, close_watchdog, true, open_no_watchdog},
 };
 
 enum { DEVICES = sizeof devices / sizeof *devices };
@@ -206,6 +238,26 @@ hal_status_t hal_board_open(hal_board_t *board, const board_table_t *table, cons
             close_first(&opened, i);
             return HAL_IO;
         }
+    *board = opened;
+    return HAL_OK;
+}
+
+hal_status_t hal_board_open_some(hal_board_t *board, const board_table_t *table, char error[HAL_BOARD_ERROR_LENGTH])
+{
+    const hal_board_needs_t any = {.fd = false};
+    hal_board_t opened = {0};
+    for (int i = 0; i < DEVICES; i++) {
+        if (!devices[i].some || (devices[i].open == open_can && table->can == NULL) ||
+            devices[i].open(&opened, table, &any, error) == HAL_OK)
+            continue;
+        fprintf(stderr, "wallwarp: %s\n", error);
+        if (devices[i].in_place != NULL && devices[i].in_place(&opened, table, &any, error) != HAL_OK)
+            fprintf(stderr, "wallwarp: %s\n", error);
+    }
+    if (opened.clock == NULL || opened.gpio == NULL || opened.watchdog == NULL) {
+        hal_board_close(&opened);
+        return HAL_IO;
+    }
     *board = opened;
     return HAL_OK;
 }

@@ -26,8 +26,8 @@
 /** What the room file and the board's table ask of the bus. */
 typedef struct {
     const char *interface; /**< can0; must live as long as the controller is open */
-    int32_t bitrate;       /**< bit/s */
-    int32_t data_bitrate;  /**< bit/s; of no meaning unless fd */
+    int32_t bitrate;       /**< bit/s; 0: as the interface is set up */
+    int32_t data_bitrate;  /**< bit/s, or 0 likewise; of no meaning unless fd */
     bool fd;               /**< CAN FD frames, too */
 } can_socketcan_settings_t;
 

@@ -39,16 +39,7 @@ static const char *stamps_of(const char *interface)
 /* What hal_board_open() would say; with no room, only what it says of every room. */
 static hal_status_t judge(const check_t *check, const socketcan_link_t *link, char error[HAL_BOARD_ERROR_LENGTH])
 {
-    can_socketcan_settings_t wanted = {
-        .interface = check->table->can,
-        .bitrate = 500000, /* what a room has that states none; a rate that the link has not is not compared */
-        .data_bitrate = 2000000,
-        .fd = link->fd,
-    };
-    if (link->bitrate != 0) {
-        wanted.bitrate = (int32_t)link->bitrate;
-        wanted.data_bitrate = (int32_t)link->data_bitrate;
-    }
+    can_socketcan_settings_t wanted = {.interface = check->table->can, .fd = link->fd};
     if (check->needs != NULL) {
         wanted.bitrate = check->needs->bitrate;
         wanted.data_bitrate = check->needs->data_bitrate;

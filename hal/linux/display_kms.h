@@ -11,7 +11,7 @@
 
 typedef struct {
     const char *name;                        /**< HDMI-A-1, card1:HDMI-A-1, auto: see kms_name_parse() */
-    int32_t width, height;                   /**< of the projector, pixels */
+    int32_t width, height;                   /**< of the projector, pixels; width 0: size and rate that it prefers */
     int32_t refresh_frames, refresh_seconds; /**< of the projector, refreshes a second as a fraction */
 } display_kms_settings_t;
 

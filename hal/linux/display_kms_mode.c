@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "warp_fixed/image.h"
+
 enum { ENTRY_LENGTH = 40, OMITTED_LENGTH = 6 /* ", ..." and its end */ };
 
 static int64_t pixels(const drmModeModeInfo *mode)
@@ -35,6 +37,11 @@ static bool has_size(const drmModeModeInfo *mode, int32_t width, int32_t height)
     return mode->hdisplay == width && mode->vdisplay == height;
 }
 
+static kms_mode_wanted_t wanted_of(const drmModeModeInfo *mode)
+{
+    return (kms_mode_wanted_t){mode->hdisplay, mode->vdisplay, kms_mode_millihertz(mode), 1000};
+}
+
 int32_t kms_mode_choose(const drmModeModeInfo *modes, int32_t count, const kms_mode_wanted_t *wanted)
 {
     const int64_t rate = INT64_C(1000) * wanted->refresh_frames / wanted->refresh_seconds;
@@ -51,6 +58,26 @@ int32_t kms_mode_choose(const drmModeModeInfo *modes, int32_t count, const kms_m
         best = i;
     }
     return best;
+}
+
+static int64_t area(const drmModeModeInfo *mode)
+{
+    return (int64_t)mode->hdisplay * mode->vdisplay;
+}
+
+kms_mode_wanted_t kms_mode_preferred(const drmModeModeInfo *modes, int32_t count)
+{
+    const drmModeModeInfo *best = NULL;
+    for (int32_t i = 0; i < count; i++) {
+        const drmModeModeInfo *mode = &modes[i];
+        if (!is_progressive(mode) || mode->hdisplay > IMAGE_MAX_WIDTH || mode->vdisplay > IMAGE_MAX_HEIGHT)
+            continue;
+        if ((mode->type & DRM_MODE_TYPE_PREFERRED) != 0)
+            return wanted_of(mode);
+        if (best == NULL || area(mode) > area(best))
+            best = mode;
+    }
+    return best == NULL ? (kms_mode_wanted_t){640, 480, 60, 1} : wanted_of(best);
 }
 
 /* The rate as people write it: 60, 59.94. */

@@ -31,6 +31,13 @@ int64_t kms_mode_period_ns(const drmModeModeInfo *mode);
 int32_t kms_mode_choose(const drmModeModeInfo *modes, int32_t count, const kms_mode_wanted_t *wanted);
 
 /**
+ * @return What the projector itself prefers: the size and rate of the mode so marked, or else of the largest; never an
+ *         interlaced or line-doubled mode, nor one that is larger than pictures can be. 640x480 at 60 when none is
+ * left.
+ */
+kms_mode_wanted_t kms_mode_preferred(const drmModeModeInfo *modes, int32_t count);
+
+/**
  * Write what is offered, for people, the wanted size first: "1920x1080 at 60 59.94 50, 1280x720 at 60". Modes that are
  * never chosen are left out. What does not fit is left out at the end, for which "..." stands.
  *

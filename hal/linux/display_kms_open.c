@@ -118,6 +118,8 @@ hal_status_t display_kms_open(hal_display_t **display, const display_kms_setting
         free(opened);
         return status;
     }
+    if (settings->width == 0)
+        opened->wanted = kms_mode_preferred(connector->modes, connector->count_modes);
     status = make_ready(opened, connector, error);
     drmModeFreeConnector(connector);
     if (status != HAL_OK) {

@@ -13,7 +13,7 @@
 
 #include "hal/linux/board_error.h"
 
-enum { MESSAGE_LENGTH = 256 };
+enum { MESSAGE_LENGTH = 640 };
 
 struct hal_service {
     int socket;

@@ -117,16 +117,23 @@ bool socketcan_link_parse(socketcan_link_t *link, const struct nlmsghdr *message
     return true;
 }
 
+/* The one to set: wanted, or else as it is, or what a room has that states none. */
+static unsigned rate_for(int32_t wanted, uint32_t found, unsigned usual)
+{
+    return wanted != 0 ? (unsigned)wanted : found != 0 ? found : usual;
+}
+
 static void command_for(char command[COMMAND_LENGTH], const socketcan_link_t *link,
                         const can_socketcan_settings_t *wanted)
 {
     char data[40] = "";
     if (wanted->fd)
-        snprintf(data, sizeof data, " dbitrate %d fd on", wanted->data_bitrate);
+        snprintf(data, sizeof data, " dbitrate %u fd on", rate_for(wanted->data_bitrate, link->data_bitrate, 2000000));
     if (link->controller)
         snprintf(command, COMMAND_LENGTH,
-                 "`ip link set %s down; ip link set %s up txqueuelen 64 type can bitrate %d%s restart-ms 100%s`",
-                 link->name, link->name, wanted->bitrate, data, link->listen_only ? " listen-only off" : "");
+                 "`ip link set %s down; ip link set %s up txqueuelen 64 type can bitrate %u%s restart-ms 100%s`",
+                 link->name, link->name, rate_for(wanted->bitrate, link->bitrate, 500000), data,
+                 link->listen_only ? " listen-only off" : "");
     else
         snprintf(command, COMMAND_LENGTH, "`ip link set %s down; ip link set %s up mtu %d`", link->name, link->name,
                  wanted->fd ? (int)CANFD_MTU : (int)CAN_MTU);
@@ -135,7 +142,7 @@ static void command_for(char command[COMMAND_LENGTH], const socketcan_link_t *li
 static bool is_other_rate(uint32_t found, int32_t wanted)
 {
     const int64_t difference = (int64_t)found - wanted;
-    return found != 0 && (difference < 0 ? -difference : difference) > wanted / TOLERANCE;
+    return found != 0 && wanted != 0 && (difference < 0 ? -difference : difference) > wanted / TOLERANCE;
 }
 
 hal_status_t socketcan_link_check(const socketcan_link_t *link, const can_socketcan_settings_t *wanted,

@@ -3,11 +3,12 @@
 #include "sim/devices/sim_display.h"
 
 #include <stdlib.h>
+#include <time.h>
 
 #include "sim/devices/sim_clock.h"
 #include "sim/devices/sim_picture.h"
 
-enum { BUFFERS = 3, NONE = -1 };
+enum { BUFFERS = 3, NONE = -1, NO_DISPLAY_NS = 20000000 };
 
 struct hal_display {
     sim_display_settings_t settings;
@@ -213,6 +214,10 @@ int64_t hal_display_next_vblank_us(const hal_display_t *display)
 
 hal_status_t hal_display_wait_vblank(hal_display_t *display)
 {
+    if (display == NULL) {
+        (void)nanosleep(&(struct timespec){.tv_nsec = NO_DISPLAY_NS}, NULL);
+        return HAL_IO;
+    }
     const hal_time_t *clock = display->settings.clock;
     const bool unplugged = is_unplugged(display, sim_clock_time_us(clock));
     const int64_t next_us = hal_display_next_vblank_us(display);

@@ -14,8 +14,8 @@ enum { MS_PER_S = 1000, FLAGS = 16 };
 
 void event_fault_names(char names[FAULT_NAMES_LENGTH], uint32_t flags)
 {
-    static const char *const known[] = {"bus",      "bus-off",  "camera",  "display",   "GPIO",
-                                        "watchdog", "deadline", "refused", "no session"};
+    static const char *const known[] = {"bus",      "bus-off",  "camera",  "display",    "GPIO",
+                                        "watchdog", "deadline", "refused", "no session", "configuration"};
     names[0] = '\0';
     for (size_t bit = 0; bit < FLAGS; bit++) {
         const size_t used = strlen(names);

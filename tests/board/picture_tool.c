@@ -16,7 +16,7 @@ static const char USAGE[] =
     "usage: picture_tool png WIDTH HEIGHT RAW PNG   raw XRGB8888, or RGB888, as a PNG\n"
     "       picture_tool differ PPM PNG            says how many bytes of RGB differ; 0 if none\n"
     "       picture_tool pose POSE fd|classic      as `send still` and such frames carry it\n"
-    "       picture_tool safe WIDTH HEIGHT NODE    the safe picture as a PPM, to stdout\n";
+    "       picture_tool safe WIDTH HEIGHT NODE BOARD REASON    the safe picture as a PPM, to stdout\n";
 
 enum { BYTES = IMAGE_XRGB8888, PACKED_BYTES = 3 };
 
@@ -118,14 +118,14 @@ static int carry_pose(const char *text, bool fd)
     return 0;
 }
 
-static int write_safe(int32_t width, int32_t height, int32_t node)
+static int write_safe(int32_t width, int32_t height, const safe_picture_t *safe)
 {
     uint8_t *pixels = calloc((size_t)width * (size_t)height, BYTES);
     if (pixels == NULL)
         return fail("out of memory");
     const picture_t panel = {
         .format = PICTURE_XRGB8888, .width = width, .height = height, .data = {pixels}, .stride = {width * BYTES}};
-    safe_picture_draw(&panel, node);
+    safe_picture_draw(&panel, safe);
     printf("P6\n%d %d\n255\n", width, height);
     for (int64_t i = 0; i < (int64_t)width * height; i++)
         for (int channel = 2; channel >= 0; channel--)
@@ -143,8 +143,8 @@ int main(int argc, char **argv)
         return differ(argv[2], argv[3]);
     if (argc == 4 && strcmp(argv[1], "pose") == 0 && (fd || strcmp(argv[3], "classic") == 0))
         return carry_pose(argv[2], fd);
-    if (argc == 5 && strcmp(argv[1], "safe") == 0)
-        return write_safe(atoi(argv[2]), atoi(argv[3]), atoi(argv[4]));
+    if (argc == 7 && strcmp(argv[1], "safe") == 0)
+        return write_safe(atoi(argv[2]), atoi(argv[3]), &(safe_picture_t){argv[5], atoi(argv[4]), argv[6]});
     fputs(USAGE, stderr);
     return 2;
 }

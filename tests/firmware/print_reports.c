@@ -169,7 +169,7 @@ static void print_heartbeats(void)
         {CAN_FAULT_CAMERA, "HeartbeatFaultCamera"},     {CAN_FAULT_DISPLAY, "HeartbeatFaultDisplay"},
         {CAN_FAULT_GPIO, "HeartbeatFaultGpio"},         {CAN_FAULT_WATCHDOG, "HeartbeatFaultWatchdog"},
         {CAN_FAULT_DEADLINE, "HeartbeatFaultDeadline"}, {CAN_FAULT_REFUSED, "HeartbeatFaultRefused"},
-        {CAN_FAULT_SESSION, "HeartbeatFaultSession"},
+        {CAN_FAULT_SESSION, "HeartbeatFaultSession"},   {CAN_FAULT_CONFIG, "HeartbeatFaultConfig"},
     };
     enum { FAULTS = sizeof FAULT / sizeof FAULT[0] };
     for (int i = 0; i < FAULTS; i++) {

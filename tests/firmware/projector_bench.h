@@ -67,7 +67,7 @@ static inline void assert_well_again(void)
     assert_int_equal(report()->state, CAN_BOARD_RUNNING);
     assert_true(report()->corrected);
     assert_int_equal(report()->pose_counter, (uint8_t)(bench.poses - 1));
-    assert_false(room_bench_is_safe_picture(&bench, 0));
+    assert_null(room_bench_safe_reason(&bench, 0));
     assert_int_equal(bench.voice[0].heartbeat.fault_flags, 0);
     assert_int_equal(bench.voice[0].heartbeat.state, CAN_BOARD_RUNNING);
     assert_false(expired());

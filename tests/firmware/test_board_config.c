@@ -130,6 +130,10 @@ static void test_what_is_wrong_is_refused(void **state)
         {"node: 1\nroom: \"\"\n", "2: room: found \"\", expected a name, or the key left out"},
         {"node: 1\nroom: r\ncan: \"a\\nb\"\n",
          "3: can: found a line end or another control character, expected a name"},
+        {"node: 1\nroom: r\ncan: \"\\x1b[2J\"\n",
+         "3: can: found a line end or another control character, expected a name"},
+        {"node: 1\nroom: r\ncan: \"\\x7f\"\n",
+         "3: can: found a line end or another control character, expected a name"},
         {"node: 1\nroom: r\nworkers: 5\n", "3: workers: found 5, expected 1 to 4"},
         {"node: 1\nroom: r\nworkers: 0\n", "3: workers: found 0, expected 1 to 4"},
         {"node: 1\nroom: r\nNODE: 2\n", "3: NODE: unknown key, expected one of node, room, key, can, camera, display, "

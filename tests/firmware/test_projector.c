@@ -10,8 +10,8 @@ static void test_waits_for_the_first_pose_with_the_safe_picture(void **state)
     room_bench_run(&bench, 700);
     assert_int_equal(report()->state, CAN_BOARD_WAITING);
     assert_false(report()->corrected);
-    assert_true(room_bench_is_safe_picture(&bench, 0));
-    assert_true(room_bench_is_safe_picture(&bench, 1));
+    assert_true(room_bench_is_safe_picture(&bench, 0, "no pose yet"));
+    assert_true(room_bench_is_safe_picture(&bench, 1, "no pose yet"));
     assert_int_equal(bench.voice[0].heartbeats, 2);
     assert_int_equal(bench.voice[0].heartbeat.state, CAN_BOARD_WAITING);
     assert_int_equal(bench.voice[1].heartbeat.node, 12);
@@ -20,7 +20,7 @@ static void test_waits_for_the_first_pose_with_the_safe_picture(void **state)
     room_bench_step(&bench);
     assert_int_equal(report()->state, CAN_BOARD_RUNNING);
     assert_true(report()->corrected);
-    assert_false(room_bench_is_safe_picture(&bench, 0));
+    assert_null(room_bench_safe_reason(&bench, 0));
     assert_true(report()->warp.lit_pixels > 0);
 }
 
@@ -40,7 +40,7 @@ static void test_loss_of_poses_is_held_then_made_safe_then_ended_at_once(void **
                                                              : CAN_BOARD_RUNNING;
         assert_int_equal(report()->state, expected);
         assert_int_equal(report()->corrected, expected != CAN_BOARD_SAFE);
-        assert_int_equal(room_bench_is_safe_picture(&bench, 0), expected == CAN_BOARD_SAFE);
+        assert_int_equal(room_bench_is_safe_picture(&bench, 0, "no pose"), expected == CAN_BOARD_SAFE);
         assert_int_equal(report()->pose_counter, last);
         held |= expected == CAN_BOARD_HOLDING;
         safe |= expected == CAN_BOARD_SAFE;
@@ -66,8 +66,8 @@ static void test_camera_unplugged_keeps_the_last_picture_then_goes_safe(void **s
     room_bench_run(&bench, 1000);
     assert_int_equal(report()->state, CAN_BOARD_FAULT);
     assert_false(report()->corrected);
-    assert_true(room_bench_is_safe_picture(&bench, 0));
-    assert_false(room_bench_is_safe_picture(&bench, 1));
+    assert_true(room_bench_is_safe_picture(&bench, 0, "no video"));
+    assert_null(room_bench_safe_reason(&bench, 1));
     assert_int_equal(bench.voice[0].heartbeat.fault_flags, CAN_FAULT_CAMERA);
     assert_int_equal(bench.voice[0].heartbeat.state, CAN_BOARD_FAULT);
     assert_int_equal(bench.voice[1].heartbeat.fault_flags, 0);
@@ -108,7 +108,7 @@ static void test_pictures_of_a_wrong_size_are_counted_and_not_shown(void **state
     assert_true(other->faults.picture_size > 40);
     assert_false(other->choice.now.any);
     assert_int_equal(other->report.state, CAN_BOARD_FAULT);
-    assert_true(room_bench_is_safe_picture(&bench, 0));
+    assert_true(room_bench_is_safe_picture(&bench, 0, "no video"));
     free(other);
     sim_camera_destroy(board.camera);
     video_close(video);

@@ -146,7 +146,7 @@ static void the_safe_picture_in_every_format(void **state)
     room_bench_open(&bench, true); /* and nobody sends poses */
     open_board(&board, &formats, NULL);
     projector_init(&board_zero, &bench.room, &bench.room.board[0], &board, &warp_kernels_scalar);
-    safe_picture_draw(&panel, bench.room.board[0].node);
+    safe_picture_draw(&panel, &(safe_picture_t){bench.room.board[0].name, bench.room.board[0].node, "no pose yet"});
     for (int i = 0; i < 4; i++) {
         room_bench_advance(&bench);
         if (i == 2)

@@ -239,7 +239,7 @@ static const char *led_for(int milliseconds)
 }
 
 /* What the wall shows, in the page's words. */
-static const char *wall_now(void)
+static const char *wall_now(char wall[CELL_LENGTH])
 {
     const uint64_t flips = sim_display_counts(devices()->display).flips;
     room_bench_run(&bench, 100);
@@ -247,15 +247,18 @@ static const char *wall_now(void)
         return "dark";
     if (sim_display_counts(devices()->display).flips == flips)
         return "kept";
-    if (room_bench_is_safe_picture(&bench, 0))
-        return "safe";
+    const char *reason = room_bench_safe_reason(&bench, 0);
+    if (reason != NULL) {
+        snprintf(wall, CELL_LENGTH, "safe: %s", reason);
+        return wall;
+    }
     return report()->corrected ? "corrected" : "pattern";
 }
 
 static void test_fault(void **state)
 {
     const fault_t *fault = &faults[*(const int *)*state];
-    char cell[CELLS][CELL_LENGTH], names[FAULT_NAMES_LENGTH];
+    char cell[CELLS][CELL_LENGTH], names[FAULT_NAMES_LENGTH], wall[CELL_LENGTH];
     if (!find_row(cell, fault->what))
         fail_msg("%s has no row: %s", page_path, fault->what);
     if (fault == faults) { /* all but the first begin with a board that runs */
@@ -275,7 +278,7 @@ static void test_fault(void **state)
         stop_poses();
         room_bench_run(&bench, fault->after_ms);
     }
-    assert_string_equal(wall_now(), cell[3]);
+    assert_string_equal(wall_now(wall), cell[3]);
     room_bench_run(&bench, 2500);
     assert_string_equal(expired() ? "yes" : "no", cell[5]);
     if (fault->end != NULL)

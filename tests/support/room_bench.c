@@ -166,7 +166,7 @@ const projector_report_t *room_bench_report(const room_bench_t *bench, int board
     return &sim_world_projector(bench->world, board)->report;
 }
 
-bool room_bench_is_safe_picture(room_bench_t *bench, int board)
+bool room_bench_is_safe_picture(room_bench_t *bench, int board, const char *reason)
 {
     uint8_t bytes[96 * 54 * 4];
     const image_t expected = {bytes, 96, 54, 96 * 4, IMAGE_XRGB8888};
@@ -174,9 +174,20 @@ bool room_bench_is_safe_picture(room_bench_t *bench, int board)
     if (shown == NULL)
         return false;
     const picture_t panel = picture_from_image(&expected);
-    safe_picture_draw(&panel, bench->room.board[board].node);
+    const safe_picture_t safe = {bench->room.board[board].name, bench->room.board[board].node, reason};
+    safe_picture_draw(&panel, &safe);
     for (int32_t y = 0; y < expected.height; y++)
         if (memcmp(image_row(&expected, y), image_row(shown, y), 96 * 4) != 0)
             return false;
     return true;
+}
+
+const char *room_bench_safe_reason(room_bench_t *bench, int board)
+{
+    static const char *const reasons[] = {"bus off", "no video yet", "no pose yet", "no pose", "no video",
+                                          "this pose can't be shown here"};
+    for (size_t i = 0; i < sizeof reasons / sizeof *reasons; i++)
+        if (room_bench_is_safe_picture(bench, board, reasons[i]))
+            return reasons[i];
+    return NULL;
 }

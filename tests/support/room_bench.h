@@ -60,7 +60,10 @@ void room_bench_run(room_bench_t *bench, int milliseconds);
 /** @return What the board's newest step has done. */
 const projector_report_t *room_bench_report(const room_bench_t *bench, int board);
 
-/** @return Whether the board's wall will show the safe picture at the next blank. */
-bool room_bench_is_safe_picture(room_bench_t *bench, int board);
+/** @return Whether the board's wall will show the safe picture with this reason at the next blank. */
+bool room_bench_is_safe_picture(room_bench_t *bench, int board, const char *reason);
+
+/** @return With which reason of safe_reason() it will; NULL when with none. */
+const char *room_bench_safe_reason(room_bench_t *bench, int board);
 
 #endif

@@ -14,10 +14,10 @@ host=${2:-build/host}
 pose="0 -1200 -800 0.9375 0 0.34375 0"
 bus_fault=1 bus_off=2 camera_fault=4 display_fault=8 # of Heartbeat, wallwarp.dbc
 
-# is STATE LED WALL: the firmware, soon.
+# is STATE LED WALL: the firmware, soon. Safe pictures are called by their reasons.
 is() {
     local found
-    comes "$1" && found="$(led) $(wall safe corrected before)" && [ "$found" = "$2 $3" ]
+    comes "$1" && found="$(led) $(wall no_pose_yet no_pose no_video corrected before)" && [ "$found" = "$2 $3" ]
     ok $? "${FUNCNAME[1]}: $1; LED and wall: ${found-}, expected $2 $3"
 }
 
@@ -64,14 +64,14 @@ test_refused_rooms() {
 test_start() {
     heartbeats can1
     start_firmware room.yaml can0
-    is waiting slow safe
+    is waiting slow no_pose_yet
     [ "$(lamp)" = 1 ]
     ok $? "the lamp is on"
     mark
     start_poses can1 "$pose"
     comes running
     vm_screenshot "$VM/corrected.ppm"
-    cmp -s "$VM/corrected.ppm" "$VM/safe.ppm" || cmp -s "$VM/corrected.ppm" "$VM/before.ppm"
+    cmp -s "$VM/corrected.ppm" "$VM/no_pose_yet.ppm" || cmp -s "$VM/corrected.ppm" "$VM/before.ppm"
     [ $? = 1 ]
     ok $? "a picture that is no other"
     is_well 0
@@ -79,7 +79,7 @@ test_start() {
 
 test_no_poses() {
     end poses >/dev/null
-    is safe slow safe
+    is safe slow no_pose
     came holding
     ok $? "the last pose was held before"
     start_poses can1 "$pose"
@@ -88,7 +88,7 @@ test_no_poses() {
 
 test_link() {
     vm_run 'ip link set can0 down; sleep 1.2'
-    [ "$(led) $(wall safe)" = "slow safe" ]
+    [ "$(led) $(wall no_pose)" = "slow no_pose" ]
     ok $? "link down: safe"
     vm_run 'ip link set can0 up'
     is_well $bus_fault
@@ -106,7 +106,7 @@ test_camera() {
     vm_run 'echo vivid.0 >/sys/bus/platform/drivers/vivid/unbind
         for try in 1 2 3 4 5 6 7 8 9 10; do rmmod vivid 2>/dev/null && exit; sleep 0.2; done; rmmod vivid'
     ok $? "the camera's module is removed"
-    is fault fast safe
+    is fault fast no_video
     vm_run 'modprobe vivid'
     still_picture 4
     is_well $camera_fault
@@ -221,7 +221,9 @@ trap vm_stop EXIT
 firmware_board build/vm-faults || exit 1
 sed 's/method: .*/method: none+nearest/' tests/board/virtual/picture_room.yaml >"$VM/share/room.yaml"
 cp tests/board/virtual/picture_room.yaml "$VM/share/slow.yaml"
-"$host/tests/board/picture_tool" safe 320 240 1 >"$VM/safe.ppm"
+for reason in 'no pose yet' 'no pose' 'no video'; do
+    "$host/tests/board/picture_tool" safe 320 240 1 front "$reason" >"$VM/${reason// /_}.ppm"
+done
 still_picture 4
 vm_screenshot "$VM/before.ppm"
 tests=${*:3}

@@ -94,6 +94,31 @@ static void another_rate_or_size_is_none(void **state)
     assert_int_equal(kms_mode_choose(offered, 0, &wanted), KMS_NO_MODE);
 }
 
+static void expect_preferred(int32_t count, int32_t width, int32_t height, int32_t millihertz)
+{
+    const kms_mode_wanted_t wanted = kms_mode_preferred(offered, count);
+    assert_int_equal(wanted.width, width);
+    assert_int_equal(wanted.height, height);
+    assert_int_equal(INT64_C(1000) * wanted.refresh_frames / wanted.refresh_seconds, millihertz);
+}
+
+static void the_preferred_mode_is_of_the_projector(void **state)
+{
+    expect_preferred(OFFERED, 1280, 800, 59810);
+    const kms_mode_wanted_t wanted = kms_mode_preferred(offered, OFFERED);
+    assert_int_equal(kms_mode_choose(offered, OFFERED, &wanted), 0);
+    offered[0].type = 0;
+    expect_preferred(OFFERED, 1920, 1080, 60000); /* marked, though others came before */
+    offered[4].type = 0;
+    expect_preferred(OFFERED, 1920, 1080, 59940); /* the first of the largest */
+    expect_preferred(2, 1280, 800, 59810);        /* the larger one is interlaced */
+    offered[0].vdisplay = 2161;
+    offered[0].type = DRM_MODE_TYPE_PREFERRED;
+    expect_preferred(OFFERED, 1920, 1080, 59940); /* what is too large is not preferred */
+    expect_preferred(2, 640, 480, 60000);         /* none is left */
+    offer(state);
+}
+
 static void the_list_is_short(void **state)
 {
     (void)state;
@@ -132,6 +157,7 @@ int main(void)
         cmocka_unit_test(rates_come_from_the_timing),
         cmocka_unit_test(the_nearest_rate_is_chosen),
         cmocka_unit_test(another_rate_or_size_is_none),
+        cmocka_unit_test(the_preferred_mode_is_of_the_projector),
         cmocka_unit_test(the_list_is_short),
         cmocka_unit_test(the_list_fits),
     };

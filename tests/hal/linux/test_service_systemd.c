@@ -16,7 +16,7 @@
 #include "hal/linux/service_systemd.h"
 #include "tests/support/scratch.h"
 
-enum { MESSAGE_LENGTH = 256, FLOOD = 4096 };
+enum { MESSAGE_LENGTH = 640, FLOOD = 4096 };
 
 /* systemd's side. */
 typedef struct {
@@ -128,6 +128,18 @@ static void test_ready_and_state_are_told_once(void **state)
     expect_message("STOPPING=1");
 }
 
+static void test_a_long_state_is_told_whole(void **state)
+{
+    char text[512], message[sizeof text + sizeof "STATUS="];
+    (void)state;
+    memset(text, 'x', sizeof text);
+    text[sizeof text - 1] = '\0';
+    (void)snprintf(message, sizeof message, "STATUS=%s", text);
+    open_service();
+    report(0, text, false, true);
+    expect_message(message);
+}
+
 static void test_life_is_told_four_times_a_period(void **state)
 {
     (void)state;
@@ -223,6 +235,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_nobody_to_tell, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_ready_and_state_are_told_once, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_a_long_state_is_told_whole, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_life_is_told_four_times_a_period, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_a_watchdog_of_another_process_is_not_fed, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_the_abstract_namespace, set_up, tear_down),

@@ -205,6 +205,24 @@ static void links_as_wanted_are_taken(void **state)
     assert_taken(&told, &FD_ROOM, false);
 }
 
+/* Who asks for no rates takes the link as it is, but not one that is down. */
+static void any_rates_are_taken_by_who_wants_none(void **state)
+{
+    (void)state;
+    static const can_socketcan_settings_t any = {.interface = "can0"};
+    char error[HAL_BOARD_ERROR_LENGTH] = "";
+    told_t told = GOOD;
+    told.bitrate = 125000;
+    told.data_bitrate = 8000000;
+    assert_taken(&told, &any, false);
+    told.flags = 0;
+    const socketcan_link_t link = link_of(&told);
+    assert_int_equal(socketcan_link_check(&link, &any, false, error), HAL_IO);
+    assert_non_null(strstr(error, "type can bitrate 125000 restart-ms 100`"));
+    told.bitrate = 0;
+    assert_refused(&told, &any, "is down");
+}
+
 static void other_links_are_refused_with_the_command(void **state)
 {
     (void)state;
@@ -287,11 +305,17 @@ static void this_machines_kernel_answers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(controllers_are_read),           cmocka_unit_test(states_are_those_of_the_contract),
-        cmocka_unit_test(other_kinds_have_no_controller), cmocka_unit_test(deleted_ones_have_no_index),
-        cmocka_unit_test(other_messages_are_refused),     cmocka_unit_test(damaged_messages_do_no_harm),
-        cmocka_unit_test(links_as_wanted_are_taken),      cmocka_unit_test(other_links_are_refused_with_the_command),
-        cmocka_unit_test(some_links_get_another_command), cmocka_unit_test(the_command_is_whole),
+        cmocka_unit_test(controllers_are_read),
+        cmocka_unit_test(states_are_those_of_the_contract),
+        cmocka_unit_test(other_kinds_have_no_controller),
+        cmocka_unit_test(deleted_ones_have_no_index),
+        cmocka_unit_test(other_messages_are_refused),
+        cmocka_unit_test(damaged_messages_do_no_harm),
+        cmocka_unit_test(links_as_wanted_are_taken),
+        cmocka_unit_test(any_rates_are_taken_by_who_wants_none),
+        cmocka_unit_test(other_links_are_refused_with_the_command),
+        cmocka_unit_test(some_links_get_another_command),
+        cmocka_unit_test(the_command_is_whole),
         cmocka_unit_test(this_machines_kernel_answers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
