@@ -5,8 +5,8 @@
 # boot state in a file; mounts, installs, downloads and restarts are played.
 # Usage, from the tree's root: tests/board/image/test_update_agent.sh
 set -u
-# shellcheck source=tests/board/virtual/checks.sh
-. tests/board/virtual/checks.sh
+# shellcheck source=tests/support/checks.sh
+. tests/support/checks.sh
 folder=$PWD/build/update_agent
 export WALLWARP_ROOT=$folder/root
 state=$WALLWARP_ROOT/run/wallwarp/update/state
@@ -96,7 +96,7 @@ says() {
     for line in "${@:2}"; do
         # shellcheck disable=SC2053 # a pattern
         [[ $(grep "^${line%%=*}=" "$state") == $line ]]
-        ok "$1, $line: $(cat "$state" "$folder/agent")" $?
+        ok $? "$1, $line: $(cat "$state" "$folder/agent")"
     done
 }
 
@@ -106,13 +106,13 @@ boots() {
     for line in "${@:2}"; do
         value=$(fw_printenv -n "${line%%=*}" 2>/dev/null)
         [ "$value" = "${line#*=}" ]
-        ok "$1, $line: $value" $?
+        ok $? "$1, $line: $value"
     done
 }
 
 # never WHAT FILE, done WHAT FILE: whether a file of a played program is there.
-never() { [ ! -e "$folder/$2" ]; ok "$1: no $2" $?; }
-happened() { [ -e "$folder/$2" ]; ok "$1: $2" $?; }
+never() { [ ! -e "$folder/$2" ]; ok $? "$1: no $2"; }
+happened() { [ -e "$folder/$2" ]; ok $? "$1: $2"; }
 
 make_root
 settled=("BOOT_ORDER=A B" BOOT_A_LEFT=8 BOOT_B_LEFT=3)
@@ -125,12 +125,12 @@ ask "install /new"
 says "install" state=ready progress=100 waiting=2.0 other=2.0 running=1.0 message=
 boots "install" BOOT_ORDER=A "BOOT_UPDATE=waiting B"
 [ ! -e "$request" ]
-ok "install: the request is gone" $?
+ok $? "install: the request is gone"
 ! grep -q request "$folder/ls.began" && grep -q state=installing "$folder/state.began"
-ok "install: the request is gone when it begins" $?
+ok $? "install: the request is gone when it begins"
 grep -q state=installing "$folder/state.halfway" && grep -q progress=40 "$folder/state.halfway" &&
     grep -qx waiting= "$folder/state.halfway" && grep -qx other= "$folder/state.halfway"
-ok "install: halfway: $(cat "$folder/state.halfway")" $?
+ok $? "install: halfway: $(cat "$folder/state.halfway")"
 agent start
 says "start with a version that waits" state=ready waiting=2.0
 rm -f "$folder/installs"
@@ -144,7 +144,7 @@ ask switch
 says "switch" state=switching
 boots "switch" "BOOT_ORDER=B A" BOOT_B_LEFT=3 BOOT_A_LEFT=9 "BOOT_UPDATE=trial B"
 grep -qx reboot "$folder/systemctl"
-ok "switch restarts" $?
+ok $? "switch restarts"
 
 board B "BOOT_ORDER=B A" BOOT_A_LEFT=9 BOOT_B_LEFT=2 "BOOT_UPDATE=trial B"
 agent start
@@ -189,7 +189,7 @@ says "not in the network" state=failed "message=can't fetch http://host/none: *4
 ask "install http://host/big"
 says "no room" state=failed "message=the data partition is too full for http://host/big: 0 MiB are free"
 [ -z "$(ls "$WALLWARP_ROOT/data")" ]
-ok "nothing is left on the data partition" $?
+ok $? "nothing is left on the data partition"
 
 board A "${settled[@]}"
 ask "install usb"
@@ -221,13 +221,13 @@ for line in "" install "install  " "switch now" "install ftp://host/x" "install 
     says "request '${line:0:20}'" state=failed "message=*"
     never "request '${line:0:20}'" installs
     [ ! -e "$request" ] && [ "$(wc -c <"$state")" -lt 1023 ]
-    ok "request '${line:0:20}' is gone" $?
+    ok $? "request '${line:0:20}' is gone"
 done
 echo "install /new" >"$folder/elsewhere"
 ln -s "$folder/elsewhere" "$request"
 agent request
 [ ! -L "$request" ] && [ -e "$folder/elsewhere" ]
-ok "a request that is a link is gone" $?
+ok $? "a request that is a link is gone"
 never "a request that is a link" installs
 : >"$folder/boot.broken"
 ask "install /new"
