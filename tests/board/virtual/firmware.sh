@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # The firmware on a virtual board and what is seen of it from outside, for scripts to source after vm.sh.
 #
-#   firmware_board FOLDER       a board with its time told by its instructions; its buses are can0 and can1, its display
-#                               has the room's size
+#   firmware_board FOLDER       a board whose buses are can0 and can1, with the firmware in its memory; its display has the
+#                               room's size
 #   start NAME COMMAND          on the board; what it says is in $VM/share/NAME
 #   end NAME                    ends it, if it has not ended, and prints its exit status
 #   start_firmware ROOM BUS [OPTIONS]   that of the folder $build, with a room file of /share; NAME is firmware
@@ -13,17 +13,20 @@
 #   mark                        said, came and comes are about heartbeats from now on
 #   comes STATE                 the newest heartbeat soon has this state
 #   came STATE                  some heartbeat had it
-#   said                        prints the faults that heartbeats named, as a number
+#   said                        prints the faults that heartbeats named, as a number, but for late pictures: the emulated
+#                               display answers in this machine's time, and the board's own runs ahead meanwhile
 #   led                         prints what it does, in the words of STATES.md
 #   wall NAME...                prints which of the pictures $VM/NAME.ppm the display shows
 #   lamp                        prints the level of its line
+firmware_deadline=64 # of Heartbeat's faults
 firmware_states=(waiting running holding safe fault frozen pattern)
 firmware_lines=/sys/devices/platform/gpio-sim.0/gpiochip1
 
 firmware_board() {
-    vm_start_counted "$1" \
-        -append 'console=ttyAMA0 panic=-1 quiet vt.global_cursor_default=0 video=Virtual-1:320x240@24' || return 1
-    vm_run 'for can in can0 can1; do ip link set $can up type can bitrate 500000 restart-ms 100; done'
+    vm_start "$1" -append 'console=ttyAMA0 panic=-1 quiet vt.global_cursor_default=0 video=Virtual-1:320x240@24' || return 1
+    vm_run "cp /tree/$build/wallwarp /run/
+        for can in can0 can1; do ip link set \$can up type can bitrate 500000 restart-ms 100; done"
+    vm_in_memory /run/wallwarp
 }
 
 start() {
@@ -38,7 +41,7 @@ end() {
 }
 
 start_firmware() {
-    start firmware "/tree/$build/wallwarp /share/$1 --node 1 --can $2 ${3-}"
+    start firmware "/run/wallwarp /share/$1 --node 1 --can $2 ${3-}"
 }
 
 start_poses() {
@@ -65,7 +68,7 @@ firmware_heard() {
 
 comes() {
     local i state
-    for ((i = 0; i < 400; i++)); do
+    for ((i = 0; i < 1200; i++)); do
         state=$(firmware_heard | tail -n 1)
         [ -n "$state" ] && [ "${firmware_states[16#${state:2:1}]}" = "$1" ] && return
         sleep 0.1
@@ -88,7 +91,7 @@ said() {
     for heard in $(firmware_heard); do
         faults=$((faults | 16#${heard:10:2}${heard:8:2}))
     done
-    echo $faults
+    echo $((faults & ~firmware_deadline))
 }
 
 # The kernel notes each set of its line, which is one for each picture; the first line of the answer is its number.

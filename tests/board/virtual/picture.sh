@@ -3,18 +3,18 @@
 # SPDX-License-Identifier: Apache-2.0
 # The firmware on a virtual board of its own, and its display beside the simulator's picture, for tests to source after
 # vm.sh. They set build and host, the folders of programs.
-#
-# Time on this board is told by its instructions, so that the firmware has no reason for a cheaper method.
 room=tests/board/virtual/picture_room.yaml
 
-# picture_board FOLDER WIDTHxHEIGHT: a board with that display, and both wires up: can0 and can1 classic, can2 and can3
-# with CAN FD.
+# picture_board FOLDER WIDTHxHEIGHT: a board with that display, the firmware in its memory, and both wires up: can0 and
+# can1 classic, can2 and can3 with CAN FD.
 picture_board() {
-    vm_start_counted "$1" -append "console=ttyAMA0 panic=-1 quiet video=Virtual-1:$2" || return
-    vm_run 'for can in can0 can1; do ip link set $can up txqueuelen 64 type can bitrate 500000 restart-ms 100; done
+    vm_start "$1" -append "console=ttyAMA0 panic=-1 quiet video=Virtual-1:$2" || return
+    vm_run "cp /tree/$build/wallwarp /run/
+        for can in can0 can1; do ip link set \$can up txqueuelen 64 type can bitrate 500000 restart-ms 100; done
         for can in can2 can3; do
-            ip link set $can up txqueuelen 64 type can bitrate 500000 dbitrate 2000000 fd on restart-ms 100
-        done'
+            ip link set \$can up txqueuelen 64 type can bitrate 500000 dbitrate 2000000 fd on restart-ms 100
+        done"
+    vm_in_memory /run/wallwarp
 }
 
 # set_pattern NUMBER: what vivid shows, standing still.
@@ -50,7 +50,7 @@ record_vimc_frame() {
 start_firmware() {
     sed "$1" $room >"$VM/share/room.yaml"
     shift
-    vm_run "/tree/$build/wallwarp /share/room.yaml --node 1 $* >/share/firmware 2>&1 & echo \$! >/share/pid"
+    vm_run "/run/wallwarp /share/room.yaml --node 1 $* >/share/firmware 2>&1 & echo \$! >/share/pid"
 }
 
 # end PID_FILE: a program that was started.

@@ -7,8 +7,18 @@
 set -u
 . tests/board/virtual/vm.sh
 . tests/support/checks.sh
-wallwarp=/tree/$1/wallwarp
+wallwarp=/run/wallwarp
 wallwarp_of_rpi4=/tree/$1/tests/board/virtual/wallwarp_of_rpi4
+
+# taken COMMAND CONDITION: another program takes a device; CONDITION is true when it has it. Its number is in /share/taker.
+taken() {
+    vm_run "$1 & echo \$! >/share/taker; until $2; do sleep 0.1; done"
+    ok $? "\"$1\" has its device"
+}
+
+given_back() {
+    vm_run 'kill $(cat /share/taker); while [ -e /proc/$(cat /share/taker) ]; do sleep 0.1; done'
+}
 
 # write_room NAME PICTURE_WIDTH PICTURE_HEIGHT PANEL_WIDTH PANEL_HEIGHT BUS
 write_room() {
@@ -69,7 +79,7 @@ run="$wallwarp /share/room.yaml --node 1"
 test_start() {
     local said status freed last
     said "$run >/share/run 2>&1 & firmware=\$!
-        candump -n 1 -T 60000 can3,701:7FF >/share/heard; kill \$firmware; wait \$firmware"
+        candump -n 1 can3,701:7FF >/share/heard; kill \$firmware; wait \$firmware"
     [ "$status $freed" = '0 1' ] && [ -s "$VM/share/heard" ]
     ok $? "$1: the firmware lives and ends on SIGTERM; status $status, free $freed; said: $(cat "$VM/share/run")"
 }
@@ -142,9 +152,10 @@ test_camera() {
     refused "a size that the camera has not" "$wallwarp /share/size.yaml --node 1" 642x362
     checked "a size that the camera has not" "$wallwarp --check /share/size.yaml --node 1" 642x362
     vm_run 'v4l2-ctl -d vivid --set-fmt-video=width=640,height=360 >/dev/null 2>&1
-        v4l2-ctl -d /dev/video0 --stream-mmap --stream-to=/dev/null >/dev/null 2>&1 & echo $! >/share/taker; sleep 2'
+        rm -f /tmp/taken'
+    taken 'v4l2-ctl -d /dev/video0 --stream-mmap --stream-to=/dev/null >/tmp/taken 2>&1' '[ -s /tmp/taken ]'
     refused "a camera that another program has" "$run --camera v4l2:/dev/video0" video0
-    vm_run 'kill $(cat /share/taker); sleep 1'
+    given_back
 }
 
 # The firmware goes on: it says what comes and what it expects, once, and takes pictures again when they are right.
@@ -154,7 +165,7 @@ test_camera_that_changes() {
         v4l2-ctl -d /dev/video0 -c dv_timings=0'
     said "$wallwarp /share/hdmi.yaml --node 1 >/share/run 2>&1 & firmware=\$!
         says() { for try in \$(seq 100); do grep -q \"\$1\" /share/run && break; sleep 0.2; done; }
-        candump -n 1 -T 60000 can3,701:7FF >/dev/null
+        candump -n 1 can3,701:7FF >/dev/null
         v4l2-ctl -d /dev/video0 -c dv_timings=2; says 720x480p
         v4l2-ctl -d /dev/video0 -c dv_timings=0; says again; kill \$firmware; wait \$firmware"
     [ "$status $freed" = '0 1' ] && [ "$(grep -c 'sends 720x480p, expected 640x480p' "$VM/share/run")" = 1 ] &&
@@ -168,18 +179,20 @@ test_display() {
     checked "no such connector" "$run --check --display HDMI-A-9" HDMI-A-9
     refused "a mode that the projector has not" "$wallwarp /share/mode.yaml --node 1" 1234x568 1280x800
     checked "a mode that the projector has not" "$wallwarp --check /share/mode.yaml --node 1" 1234x568
-    vm_run 'sleep 1000 | modetest -M virtio_gpu -s Virtual-1:640x480 >/dev/null 2>&1 & sleep 3'
+    vm_run 'mountpoint -q /sys/kernel/debug || mount -t debugfs debug /sys/kernel/debug; mkfifo /tmp/enter'
+    taken 'modetest -M virtio_gpu -s Virtual-1:640x480 <>/tmp/enter >/dev/null 2>&1' \
+        'grep -q "^ *modetest .* y  *y " /sys/kernel/debug/dri/0/clients'
     refused "a display that another program has" "$run" card0 modetest
     checked "a display that another program has" "$run --check" modetest
-    vm_run 'pkill modetest; pkill sleep; sleep 1'
+    given_back
 }
 
 test_lines() {
-    vm_run 'gpiomon wallwarp 2 >/dev/null 2>&1 & echo $! >/share/taker; sleep 1'
+    taken 'gpiomon wallwarp 2 >/dev/null 2>&1' 'gpioinfo wallwarp | grep -q gpiomon'
     refused "a line that another program has" "$run" wallwarp gpiomon
     checked "a line that another program has" "$run --check" gpiomon
     refused "outputs off while a line is taken" "$wallwarp --off" gpiomon
-    vm_run 'kill $(cat /share/taker); sleep 1'
+    given_back
     vm_run "$wallwarp --off"
     ok $? "--off"
 }
@@ -187,10 +200,11 @@ test_lines() {
 # While another program has the watchdog, it is not free, whatever the firmware does.
 test_watchdog() {
     local free=true
-    vm_run 'busybox watchdog -F -T 60 -t 5 /dev/watchdog0 >/dev/null 2>&1 & echo $! >/share/taker; sleep 1'
+    taken 'busybox watchdog -F -T 60 -t 5 /dev/watchdog0 >/dev/null 2>&1' \
+        'grep -qx active /sys/class/watchdog/watchdog0/state'
     refused "a watchdog that another program has" "$run" watchdog0
     checked "a watchdog that another program has" "$run --check" busybox
-    vm_run 'kill $(cat /share/taker); sleep 1'
+    given_back
 }
 
 test_rights() {
@@ -200,6 +214,8 @@ test_rights() {
 }
 
 vm_use || exit 1
+vm_run "cp /tree/$1/wallwarp /run/"
+vm_in_memory $wallwarp
 write_room room.yaml 640 360 640 480 '{bitrate: 500000, data_bitrate: 2000000, fd: true}'
 write_room size.yaml 642 362 640 480 '{bitrate: 500000, data_bitrate: 2000000, fd: true}'
 write_room hdmi.yaml 640 480 640 480 '{bitrate: 500000, data_bitrate: 2000000, fd: true}'

@@ -7,7 +7,7 @@ set -u
 build=${1:?usage: test_camera.sh BUILD}
 . tests/board/virtual/vm.sh
 . tests/support/checks.sh
-probe=/tmp/probe_camera # a copy starts faster
+probe=/run/probe_camera
 single=/dev/video20
 multi=/dev/video21
 hdmi=/dev/video22
@@ -24,18 +24,18 @@ control() {
     vm_run "v4l2-ctl -d $1 -c $2" >/dev/null
 }
 
-# start LOG NAME WIDTH HEIGHT RATE PICTURES SECONDS [hold]: the probe beside, with what it says in a file.
+# start LOG NAME WIDTH HEIGHT RATE PICTURES [hold [SECONDS]]: the probe beside, with what it says in a file.
 start() {
     local log=$1
     shift
     : >"$VM/share/$log"
-    vm_run "{ $probe $(printf "'%s' " "$@"); echo status \$?; } >/share/$log 2>&1 &"
+    vm_run "{ $probe $(printf "'%s' " "${@:1:5}") ${7-1000000} ${6-}; echo status \$?; } >/share/$log 2>&1 &"
 }
 
-# awaits LOG TEXT [TIMES]: until the file has so many lines with it; false after 40 s.
+# awaits LOG TEXT [TIMES]: until the file has so many lines with it; false after two minutes.
 awaits() {
     local i
-    for ((i = 0; i < 400; i++)); do
+    for ((i = 0; i < 1200; i++)); do
         [ "$(grep -cF -- "$2" "$VM/share/$1")" -ge "${3-1}" ] && return
         sleep 0.1
     done
@@ -110,8 +110,7 @@ check_says() {
 }
 
 test_many_pictures() {
-    start many v4l2:$single 320 180 60 500 60 hold
-    awaits many 'end pictures 500'
+    vm_run "$probe v4l2:$single 320 180 60 500 1000000 hold >/tmp/many; status=\$?; cp /tmp/many /share/; exit \$status"
     ok $? "500 pictures, four held at a time"
     even many 0 0
     [ "$(sed -n 's/^end .* full \([0-9]*\) .*/\1/p' "$VM/share/many")" -gt 400 ]
@@ -129,7 +128,7 @@ test_refusals() {
     refused '640x360 at nearest, expected 640x361 as the room file states' v4l2:$single 640 361
     refused 'is no HDMI receiver' v4l2:$single+/dev/v4l-subdev0 640 360
     refused 'no EDID can offer 1280x720 at 600/1 Hz' v4l2:$hdmi 1280 720 600
-    vm_run "v4l2-ctl -d $single --stream-mmap >/share/other 2>&1 & sleep 1"
+    vm_run "v4l2-ctl -d $single --stream-mmap >/share/other 2>&1 & while [ ! -s /share/other ]; do sleep 0.1; done"
     refused 'is used by another program' v4l2:$single 640 360
     vm_run 'kill $(pidof v4l2-ctl)'
     control $single quantization=1
@@ -141,7 +140,7 @@ test_refusals() {
 test_hdmi() {
     control $hdmi dv_timings_signal_mode=4
     control $hdmi dv_timings=$vga
-    start hdmi v4l2:$hdmi 640 480 60 1000000 150
+    start hdmi v4l2:$hdmi 640 480 60 1000000
     awaits hdmi picture 10
     ok $? "pictures of the right signal"
     vm_run "v4l2-ctl -d $hdmi --get-edid=format=raw,file=/share/edid >/dev/null 2>&1"
@@ -176,7 +175,7 @@ test_hdmi() {
 
 test_no_signal_at_start() {
     control $hdmi dv_timings_signal_mode=1
-    start late v4l2:$hdmi 640 480 60 20 60
+    start late v4l2:$hdmi 640 480 60 20
     awaits late 'no HDMI signal'
     ok $? "it opens without a signal"
     control $hdmi dv_timings_signal_mode=4
@@ -188,7 +187,7 @@ test_no_signal_at_start() {
 
 # The device goes while some of its pictures are held, and its module too; it comes back by its name with another number.
 test_module_back() {
-    start module v4l2:vivid-000-vid-cap 320 180 60 1000000 150 hold
+    start module v4l2:vivid-000-vid-cap 320 180 60 1000000 hold
     awaits module picture 40
     ok $? "found by its name"
     vm_run 'for i in 0 1 2; do echo vivid.$i >/sys/bus/platform/drivers/vivid/unbind; done 2>/dev/null; true'
@@ -203,12 +202,12 @@ test_module_back() {
     ok $? "back under another number"
     said module 'is gone' 1
     said module 'no capture device' 1
-    vm_run 'kill $(pidof probe_camera); sleep 0.5; rmmod vivid'
+    vm_run 'kill $(pidof probe_camera); while pidof probe_camera; do sleep 0.1; done; rmmod vivid'
     vm_run "$load_vivid"
 }
 
 test_libcamera() {
-    start vimc libcamera:0 48 48 30 100 60 hold # the smallest of its sizes
+    start vimc libcamera:0 48 48 30 100 hold # the smallest of its sizes
     awaits vimc 'status 0'
     ok $? "100 pictures of vimc"
     even vimc 64 4096 # the library's own heap breathes
@@ -231,7 +230,7 @@ test_libcamera() {
 
 # vimc can't be unplugged for libcamera, which would end the program if the camera was closed.
 test_libcamera_gone() {
-    start gone libcamera:0 48 48 30 1000000 20 hold
+    start gone libcamera:0 48 48 30 1000000 hold 200
     awaits gone picture 20
     ok $? "pictures before"
     vm_run 'echo vimc.0 >/sys/bus/platform/drivers/vimc/unbind'
@@ -241,14 +240,14 @@ test_libcamera_gone() {
     ok $? "the program ends by itself"
     said gone 'is gone' 1
     vm_run 'rmmod vimc && modprobe vimc && udevadm settle && sleep 1'
-    start again libcamera:0 48 48 30 10 60
+    start again libcamera:0 48 48 30 10
     awaits again 'status 0'
     ok $? "a new program has it again"
 }
 
 vm_start "${VM_SHARED:-build/vm}-camera" || exit 1
 trap vm_stop EXIT
-vm_run "cp /tree/$build/tests/board/virtual/probe_camera $probe; rmmod vivid; $load_vivid" || exit 1
+vm_run "cp /tree/$build/tests/board/virtual/probe_camera $probe; rmmod vivid; $load_vivid" && vm_in_memory $probe || exit 1
 tests=${*:2}
 for test in ${tests:-formats many_pictures refusals hdmi no_signal_at_start module_back libcamera libcamera_gone}; do
     "test_$test"

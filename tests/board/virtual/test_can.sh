@@ -11,7 +11,7 @@ programs=/tree/$1/tests/board/virtual
 # check PROGRAM ARGUMENT...: runs it on the board; prints what it said if it fails.
 check() {
     local said status
-    said=$(vm_run -t 120 "$programs/$*")
+    said=$(vm_run "$programs/$*")
     status=$?
     [ $status = 0 ] || echo "$said"
     ok $status "$*"

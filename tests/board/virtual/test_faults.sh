@@ -49,7 +49,7 @@ has_ended() {
 # refused ROOM WORDS: the firmware ends before it has begun, with one line that has these words.
 refused() {
     local said
-    said=$(vm_run "/tree/$build/wallwarp /share/$1 --node 1 --can can0; echo \$?" 2>&1)
+    said=$(vm_run "/run/wallwarp /share/$1 --node 1 --can can0; echo \$?" 2>&1)
     [ "$(wc -l <<<"$said")" = 2 ] && [[ $said == "wallwarp: "*"$2"* ]]
     ok $? "$1: said \"$said\", expected one line with $2"
     has_ended 1 "${said##*$'\n'}"
@@ -155,7 +155,7 @@ test_full_disk_and_bus_off() {
     vm_run 'mkdir -p /full; mount -t tmpfs -o size=4k full /full; head -c 4096 /dev/zero >/full/log
         modprobe vcan; ip link add dev vcan0 type vcan; ip link set vcan0 up'
     heartbeats vcan0
-    start firmware "exec 2>>/full/log; /tree/$build/wallwarp /share/room.yaml --node 1 --can vcan0"
+    start firmware "exec 2>>/full/log; /run/wallwarp /share/room.yaml --node 1 --can vcan0"
     start_poses vcan0 "$pose"
     comes running
     mark
@@ -184,6 +184,9 @@ test_killed() {
     start_firmware room.yaml can0
     start_poses can1 "$pose"
     comes running
+    vm_run 'kill -STOP $(cat /share/firmware.pid)'
+    [ "$(wall corrected)" = corrected ]
+    ok $? "a firmware that stands still keeps its picture"
     # Its pull in place of a board that keeps a line's level when its program has gone; the kernel notes what is set.
     vm_run "echo pull-up >$firmware_lines/sim_gpio3/pull; kill -KILL \$(cat /share/firmware.pid)"
     [ "$(end firmware) $(lamp)" = "137 1" ]
@@ -191,7 +194,7 @@ test_killed() {
     vm_run 'sleep 3'
     vm_has_event WATCHDOG
     ok $? "the watchdog would reset the board"
-    vm_run "cd /sys/kernel/tracing; echo >trace; /tree/$build/wallwarp $off
+    vm_run "cd /sys/kernel/tracing; echo >trace; /run/wallwarp $off
         lamp=\$((\$(cat \$(dirname \$(grep -lx wallwarp /sys/class/gpio/*/label))/base) + 3))
         grep -q \"gpio_value: \$lamp set 0\" trace && ! grep -q \"gpio_value: \$lamp set 1\" trace
         status=\$?; echo pull-down >$firmware_lines/sim_gpio3/pull; exit \$status"
@@ -202,19 +205,15 @@ test_killed() {
     has_ended 0 "$(end firmware)"
 }
 
-# The board keeps what it shows until it is reset.
 test_stopped() {
     watchdog reset
     ok $? "a watchdog that resets the board"
     start_firmware room.yaml can0
     mark
     comes running
-    vm_run 'kill -STOP $(cat /share/firmware.pid)'
-    [ "$(wall corrected)" = corrected ]
-    ok $? "a firmware that stands still keeps its picture"
-    vm_run 'sleep 3'
+    vm_run 'kill -STOP $(cat /share/firmware.pid); sleep 1000'
     [ $? = 125 ] && vm_has_event SHUTDOWN
-    ok $? "and is ended with its board by the watchdog"
+    ok $? "a firmware that stands still is ended with its board by the watchdog"
 }
 
 trap vm_stop EXIT

@@ -9,7 +9,7 @@ set -u
 
 vm_use || exit 1
 for program in check_hal_gpio check_gpio; do
-    said=$(vm_run -t 120 "/tree/$1/tests/board/virtual/$program")
+    said=$(vm_run "/tree/$1/tests/board/virtual/$program")
     status=$?
     [ $status = 0 ] || echo "$said"
     ok $status "$program"

@@ -32,7 +32,7 @@ test_root() {
 wire() {
     has "$1 to $2" "
         ip link set $1 up type can bitrate 500000 $3 && ip link set $2 up type can bitrate 500000 $3
-        candump -n 1 -T 5000 $2 >/tmp/heard & sleep 1; cansend $1 $4; wait; cat /tmp/heard
+        candump -n 1 $2 >/tmp/heard & until grep -q $2 /proc/net/can/rcvlist_all; do sleep 0.1; done; cansend $1 $4; wait; cat /tmp/heard
         ip link set $1 down; ip link set $2 down" "$5"
 }
 
@@ -66,7 +66,7 @@ test_jobs() {
     status=$?
     [ "$status $said" = $'7 out\nerror' ]
     ok $? "output and exit status: found $status, \"$said\""
-    vm_run -t 1 'sleep 10'
+    vm_run -t 1 'sleep 1000000'
     [ $? = 124 ]
     ok $? "a command that takes too long"
     vm_run 'while [ ! -e /share/go ]; do sleep 0.1; done; echo first' >"$VM/first" &
@@ -76,7 +76,7 @@ test_jobs() {
     [ "$(cat "$VM/first")" = first ]
     ok $? "two commands at a time"
     vm_run 'sleep 0 & sleep 1 & echo $! >/share/orphan'
-    vm_run 'sleep 2; [ ! -e /proc/$(cat /share/orphan) ]'
+    vm_run 'while [ -e /proc/$(cat /share/orphan) ]; do sleep 0.1; done'
     ok $? "a process that lost its parent is buried"
 }
 

@@ -21,13 +21,14 @@ write_room() {
         s/method: .*/method: $6/; s/refresh_hz: .*/refresh_hz: $5}/" $room >"$VM/share/room.yaml"
 }
 
-# no_faults WHAT: not one of the board itself; poses of a sender that was there before are no fault.
+# no_faults WHAT: not one of the board itself. Poses of a sender that was there before are no fault, nor are late pictures:
+# the emulated display answers in this machine's time, and the board's own runs ahead meanwhile.
 no_faults() {
     local flags said
     said=$(cat "$VM/share/firmware")
     flags=$(reported fault_flags)
-    [ -n "$flags" ] && [ $((flags & ~1)) = 0 ]
-    ok $? "$1: fault flags $flags, expected 0 or 1; the firmware said: $said"
+    [ -n "$flags" ] && [ $((flags & ~(1 | 64))) = 0 ]
+    ok $? "$1: fault flags $flags, expected none but 1 and 64; the firmware said: $said"
 }
 
 # heap_rows WHAT: our code took nothing; who else took what.
@@ -71,6 +72,7 @@ test_start() {
         row "$what: stage $stage, mean" "$(reported ${stage}_mean_us)" us
         row "$what: stage $stage, worst" "$(reported ${stage}_worst_us)" us
     done
+    at_most "$what: stages pose and warp, worst" "$(($(reported pose_worst_us) + $(reported warp_worst_us)))" us 16667
     row "$what: late pictures" "$(reported late)" ""
     row "$what: capture of pose to photon, as the board says" "$(reported photon_us)" us
     read -r mean worst made count < <(latencies)
@@ -119,8 +121,7 @@ test_libcamera() {
 
 trap vm_stop EXIT
 picture_board build/vm-measures 64x48@120 || exit 1 # which is made 121.06 Hz
-vm_run "cp /tree/$build/wallwarp /tree/$build/tests/board/virtual/count_heap.so /run/"
-vm_in_memory /run/wallwarp
+vm_run "cp /tree/$build/tests/board/virtual/count_heap.so /run/"
 tests=${*:3}
 for test in ${tests:-start many_frames libcamera}; do
     "test_$test"

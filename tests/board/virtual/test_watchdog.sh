@@ -7,10 +7,16 @@
 set -u
 . tests/board/virtual/vm.sh
 . tests/support/checks.sh
-probe="/tree/$1/tests/board/virtual/probe_watchdog /dev/watchdog0"
+probe="/run/probe_watchdog /dev/watchdog0"
 
-vm_use || exit 1
-said=$(vm_run "$probe 6 close & sleep 2; $probe 1 close; wait")
+# A program that waits for its own file while it has the watchdog would be too late.
+load() {
+    vm_run "cp /tree/$1/tests/board/virtual/probe_watchdog /run/" && vm_in_memory /run/probe_watchdog
+}
+
+vm_use && load "$1" || exit 1
+said=$(vm_run "$probe 6 close & until grep -qx active /sys/class/watchdog/watchdog0/state; do sleep 0.1; done
+    $probe 1 close; wait")
 [ "$said" = "period 2 s
 watchdog /dev/watchdog0: held by another program (\`fuser /dev/watchdog0\`); if that is systemd, leave \
 RuntimeWatchdogSec out of system.conf" ]
@@ -25,7 +31,7 @@ vm_run true
 ok $? "a command for a board that is gone"
 
 trap vm_stop EXIT
-vm_start "$VM-crash" || exit 1
+vm_start "$VM-crash" && load "$1" || exit 1
 vm_run "$probe 1 crash; sleep 30" >/dev/null
 [ $? = 125 ] && vm_has_event WATCHDOG
 ok $? "unfed as its program is gone, it ends the board"

@@ -6,16 +6,17 @@
 # build/board-kernel/root, and forgets its changes. /tree in it is this tree, read-only; /share is $VM/share, and both
 # sides see at once what is in it. What it and qemu say is in $VM/console and $VM/qemu. boot.sh says which devices it has.
 #
+# Its time is told by its instructions, 1 ns each: what it does takes as long however busy this machine is, and what sleeps
+# in it costs nothing. Left alone, it runs ahead: its minutes pass in seconds, also while it waits for a file of this
+# machine's, as /tree and at first its root are. So wait in it for what is to happen, not for a while; and what must be in
+# time, or runs often, belongs in its memory (vm_in_memory).
+#
 #   vm_use                             for tests that leave the board as they found it: the one that run.sh's tests share,
 #                                      or this script's own
 #   vm_start FOLDER [QEMU_OPTION...]   a new one, VM=FOLDER. Returns when commands can be run; on failure says why
-#   vm_start_counted FOLDER [QEMU_OPTION...]   the same, with its time told by its instructions, 1 ns each: what it does
-#                                      takes as long however busy this machine is, and what sleeps in it costs nothing.
-#                                      Only this machine's files take it any time, see vm_in_memory. Left alone, it runs
-#                                      ahead: its minutes pass in seconds
 #   vm_in_memory PROGRAM...            copies these, their libraries and busybox from this machine into its memory
 #   vm_run [-t SECONDS] COMMAND        runs it in a shell of the board and prints what it prints. Exit status: its own,
-#                                      124 after SECONDS (60), 125 when the board is gone
+#                                      124 after SECONDS (300), 125 when the board is gone
 #   vm_screenshot FILE [DEVICE]        what a display shows, as a PPM: gpu, or another device's id
 #   vm_monitor COMMAND                 a line to qemu's monitor; prints the answer
 #   vm_has_event NAME                  whether qemu has told of it: WATCHDOG, SHUTDOWN ...
@@ -23,8 +24,8 @@
 #   vm_stop                            ends it as a lost power supply does
 # Each call is bounded in time. A board is ended after VM_SECONDS, whatever becomes of those who use it.
 VM=${VM-}
-VM_SECONDS=900
-VM_START_SECONDS=120
+VM_SECONDS=2400
+VM_START_SECONDS=300
 
 vm_use() {
     if [ -z "${VM_SHARED-}" ]; then
@@ -61,10 +62,6 @@ vm_start() {
     return 1
 }
 
-vm_start_counted() {
-    VM_ACCEL=tcg,thread=single vm_start "$@" -icount shift=0,sleep=off
-}
-
 vm_in_memory() {
     vm_run "touch /bin/busybox /etc/ld.so.cache /lib/ld-linux-aarch64.so.1; for program in $*; do
         touch \$program; /lib/ld-linux-aarch64.so.1 --list \$program | sed -n 's/.*=> \\([^ ]*\\) .*/\\1/p' | xargs touch; done"
@@ -78,7 +75,7 @@ vm_qemu() {
             -device "virtio-9p-pci,fsdev=${folder%%=*},mount_tag=${folder%%=*}")
     done
     exec timeout -k 5 "$VM_SECONDS" qemu-system-aarch64 -M virt -cpu cortex-a72 -smp 2 -m 1024 \
-        -accel "${VM_ACCEL-tcg,thread=multi}" -nodefaults -display none -no-reboot -serial "file:$VM/console" \
+        -accel tcg,thread=single -icount shift=0,sleep=off -nodefaults -display none -no-reboot -serial "file:$VM/console" \
         -kernel build/board-kernel/vmlinuz -initrd build/board-kernel/initramfs.gz \
         -append 'console=ttyAMA0 panic=-1 quiet' \
         -chardev "pipe,id=jobs,path=$VM/jobs" -device virtio-serial-pci -device virtserialport,chardev=jobs \
@@ -95,7 +92,7 @@ vm_alive() {
 }
 
 vm_run() {
-    local seconds=60 job i
+    local seconds=300 job i
     if [ "$1" = -t ]; then
         seconds=$2
         shift 2
