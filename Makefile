@@ -311,9 +311,9 @@ VIRTUAL_TESTS    := $(wildcard tests/board/virtual/test_*.sh)
 
 .PHONY: test-board virtual-programs
 test-board: setup-test setup-board ## Boot a virtual arm64 board and run the firmware in it; the last line says how many tests passed
-	$(Q)$(MAKE) --no-print-directory programs $(addprefix build/host/tests/,hal/linux/print_edid board/picture_tool \
-	    board/wire_tool)
-	$(Q)$(MAKE) --no-print-directory BOARD=qemu-virt virtual-programs
+	$(Q)$(MAKE) --no-print-directory -j2 build/sysroot.made build/board-kernel.made programs \
+	    $(addprefix build/host/tests/,hal/linux/print_edid board/picture_tool board/wire_tool)
+	$(Q)$(MAKE) --no-print-directory -j2 BOARD=qemu-virt virtual-programs
 	$(Q)tests/board/virtual/run.sh build/test-board build/qemu-virt $(VIRTUAL_TESTS)
 virtual-programs: programs $(VIRTUAL_PROGRAMS) $(OTHER_BOARD) $(HEAP_COUNTER) build/board-kernel/initramfs.gz
 
