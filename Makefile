@@ -155,6 +155,7 @@ $(BUILD)/tests/sim/pose/test_send_pose: $(BUILD)/tests/sim/pose/send_pose
 
 # The kernel's part of a display, played.
 $(addprefix $(BUILD)/tests/hal/linux/test_display_kms_,frames dark): $(call objects,tests/hal/linux/kms_kernel.c)
+$(BUILD)/tests/hal/linux/test_display_kms_plane: $(call objects,tests/hal/linux/drm_card.c)
 
 $(BUILD)/tests/firmware/test_frame_tag_jpeg: LDLIBS += -ljpeg
 
