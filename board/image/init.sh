@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# The first program of a board: finds the partition that the kernel's command line names, and goes on in it.
+# The first program of a board: mounts the root that the kernel's command line names, and what it needs from the first
+# moment, and goes on in it. It waits for nothing but the partition.
 export PATH=/bin
 busybox mount -t devtmpfs dev /dev
 busybox mkdir -p /proc /sys /root
@@ -10,10 +11,21 @@ while read -r module; do
     busybox insmod "/modules/$module"
 done </modules/order
 
+say() {
+    echo "wallwarp: $*" >/dev/console
+}
+
 fail() {
-    echo "wallwarp: $1; restarting" >/dev/console
+    say "$*; restarting"
     busybox sleep 2
     busybox reboot -f
+}
+
+# device_of LABEL: the device of a partition.
+device_of() {
+    device=$(busybox grep -lsx "PARTNAME=$1" /sys/class/block/*/uevent) || return
+    device=${device%/uevent}
+    echo "/dev/${device##*/}"
 }
 
 label=
@@ -25,13 +37,21 @@ done
 
 # A card takes its time to appear.
 i=0
-until device=$(busybox grep -lsx "PARTNAME=$label" /sys/class/block/*/uevent); do
+until root=$(device_of "$label"); do
     i=$((i + 1))
-    [ "$i" -lt 200 ] || fail "no partition is named \"$label\" (root= on the kernel's command line)"
+    [ "$i" -lt 200 ] || fail "no partition is named \"$label\", expected what root= on the kernel's command line says"
     busybox usleep 50000
 done
-device=${device%%/uevent*}
-busybox mount -t squashfs -o ro "/dev/${device##*/}" /root || fail "partition \"$label\" is no squashfs"
+busybox mount -t squashfs -o ro "$root" /root || fail "$root: cannot be mounted, expected the squashfs of a slot"
+
+card=$(device_of card) && busybox mount -t vfat -o ro,nosuid,nodev,noexec,umask=022 "$card" /root/card ||
+    say "partition \"card\" cannot be mounted: put the card into a PC and repair it, or flash it anew"
+busybox mount -t tmpfs -o nosuid,nodev,mode=1777,size=64m tmp /root/tmp
+busybox mount -t tmpfs -o nosuid,nodev,mode=755,size=64m var /root/var
+busybox mkdir -p /root/var/lib /root/var/log /root/var/cache /root/var/spool
+busybox mkdir -m 1777 /root/var/tmp
+busybox ln -s /run /root/var/run
+
 busybox mount --move /dev /root/dev
 busybox umount /sys /proc
 exec busybox switch_root /root /lib/systemd/systemd

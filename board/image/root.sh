@@ -26,6 +26,30 @@ copy_programs() {
     done
 }
 
+# keep_only FOLDER NAME...: what else is in this folder of Debian's costs a board time at each start.
+keep_only() {
+    local folder=$root/usr/lib/$1 name
+    shift
+    for name in $(ls "$folder"); do
+        [[ " $* " == *" $name "* ]] || rm -r "${folder:?}/$name"
+    done
+}
+
+trim_start() {
+    local wants
+    keep_only systemd/system-generators
+    keep_only tmpfiles.d dbus.conf static-nodes-permissions.conf systemd.conf
+    keep_only udev/rules.d 50-udev-default.rules 60-block.rules 60-persistent-storage.rules 60-persistent-v4l.rules \
+        80-drivers.rules 99-systemd.rules
+    for wants in "$root"/usr/lib/systemd/system/*.wants; do
+        keep_only "systemd/system/${wants##*/}" systemd-journald.service systemd-journald.socket \
+            systemd-journald-dev-log.socket systemd-journal-flush.service systemd-modules-load.service \
+            systemd-sysctl.service systemd-tmpfiles-setup-dev.service systemd-tmpfiles-setup.service \
+            systemd-udevd.service systemd-udevd-control.socket systemd-udevd-kernel.socket systemd-udev-trigger.service \
+            dbus.socket
+    done
+}
+
 copy_modules() {
     local file
     grep -hv '^ *#' "$here/modules" "board/$board/modules" | while read -r module _; do
@@ -38,10 +62,11 @@ copy_modules() {
 }
 
 copy_firmware() {
-    install -D -m 755 "build/$board/wallwarp" "$root/usr/local/bin/wallwarp"
-    "${CROSS:-aarch64-linux-gnu-}strip" "$root/usr/local/bin/wallwarp"
-    install -m 755 "build/$board/wallwarp-pose" "$root/usr/local/bin/"
-    "${CROSS:-aarch64-linux-gnu-}strip" "$root/usr/local/bin/wallwarp-pose"
+    local program
+    for program in wallwarp wallwarp-pose; do
+        install -D -m 755 "build/$board/$program" "$root/usr/local/bin/$program"
+        aarch64-linux-gnu-strip "$root/usr/local/bin/$program"
+    done
     install -D -m 644 -t "$root/etc/udev/rules.d" board/service/60-wallwarp.rules
     install -D -m 644 -t "$root/etc/systemd/network" board/service/80-wallwarp-can.network
     install -D -m 644 -t "$root/etc/systemd/system" board/service/wallwarp.service
@@ -49,17 +74,23 @@ copy_firmware() {
     [ ! -d "board/$board/tree" ] || cp -r "board/$board/tree/." "$root/"
 }
 
+# What Debian's packages do when they are installed.
 set_up() {
-    SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH-0} systemd-sysusers --root="$root"
+    cp "$root/usr/share/libc-bin/nsswitch.conf" "$root/etc/nsswitch.conf"
+    cat "$root"/usr/share/ca-certificates/mozilla/*.crt >"$root/etc/ssl/certs/ca-certificates.crt"
+    rm -rf "$root/usr/share/ca-certificates"
+    systemd-sysusers --root="$root" 2>"$out/users.log"
     ln -sfn /usr/lib/systemd/system/multi-user.target "$root/etc/systemd/system/default.target"
-    xargs -r systemctl --root="$root" --quiet mask <"$here/masked_units"
-    xargs -r systemctl --root="$root" --quiet enable <"$here/enabled_units"
+    xargs systemctl --root="$root" --quiet enable <"$here/enabled_units"
+    # A board without a clock starts no earlier than this.
+    touch -d "@$SOURCE_DATE_EPOCH" "$root/usr/lib/clock-epoch"
 }
 
 copy_programs
+trim_start
 copy_modules
 copy_firmware
 set_up
 rm -f "$out/root.squashfs"
-mksquashfs "$root" "$out/root.squashfs" -all-root -no-xattrs -noappend -comp zstd -Xcompression-level ${LEVEL-3} \
+mksquashfs "$root" "$out/root.squashfs" -all-root -no-xattrs -noappend -comp zstd -Xcompression-level "${LEVEL-15}" \
     -quiet -no-progress
