@@ -321,9 +321,16 @@ virtual-programs: programs $(VIRTUAL_PROGRAMS) $(OTHER_BOARD) $(HEAP_COUNTER) bu
 # --- images of cards --------------------------------------------------------------------------------------------------
 
 # Files in them have the time of the newest commit, so that the same tree gives the same bytes.
-IMAGE       := $(BUILD)/image
+PARTS       := $(BUILD)/image
 IMAGE_EPOCH  = SOURCE_DATE_EPOCH=$${SOURCE_DATE_EPOCH-$$(git log -1 --format=%ct)}
 IMAGE_FILES := $(shell find board/image board/service board/$(BOARD) board/initramfs.sh -type f)
+
+# What bundles are signed with, and what boards check them with. Your own: make signing-key DIR=...
+DEVELOPMENT_KEY := build/development-key
+SIGNING_KEY     := $(DEVELOPMENT_KEY)/signing.key
+SIGNING_CERT    := $(DEVELOPMENT_KEY)/signing.pem
+CA              := $(DEVELOPMENT_KEY)/ca.pem
+DIR             :=
 
 .PHONY: image
 image: setup-image ## Make the image of a board's card: make BOARD=rpi4 image
@@ -332,15 +339,31 @@ build/image.made: board/image/debian.sh board/debian.sh
 	$(if $(V),,@echo "  DEBIAN build/image")
 	$(Q)board/image/debian.sh build/image
 	$(Q)touch $@
-$(IMAGE)/root.squashfs: build/image.made $(IMAGE_FILES) $(PROGRAMS:%=$(BUILD)/%)
+$(PARTS)/root.squashfs: build/image.made $(IMAGE_FILES) $(PROGRAMS:%=$(BUILD)/%) $(CA) $(PARTS)/version
 	$(if $(V),,@echo "  ROOT  $@")
-	$(Q)$(IMAGE_EPOCH) board/image/root.sh $(BOARD) build/image $(IMAGE)
-$(IMAGE)/kernel.vfat: build/image.made $(IMAGE_FILES)
+	$(Q)$(IMAGE_EPOCH) board/image/root.sh $(BOARD) build/image $(CA) "$$(cat $(PARTS)/version)" $(PARTS)
+$(PARTS)/kernel.vfat: build/image.made $(IMAGE_FILES)
 	$(if $(V),,@echo "  SLOT  $@")
-	$(Q)$(IMAGE_EPOCH) board/image/slot.sh $(BOARD) build/image $(IMAGE)
-$(BUILD)/wallwarp-$(BOARD).img: $(IMAGE)/root.squashfs $(IMAGE)/kernel.vfat
+	$(Q)$(IMAGE_EPOCH) board/image/slot.sh $(BOARD) build/image $(PARTS)
+$(BUILD)/wallwarp-$(BOARD).img: $(PARTS)/root.squashfs $(PARTS)/kernel.vfat
 	$(if $(V),,@echo "  IMAGE $@")
-	$(Q)$(IMAGE_EPOCH) board/image/image.sh $(BOARD) $(IMAGE) $@
+	$(Q)$(IMAGE_EPOCH) board/image/image.sh $(BOARD) $(PARTS) $@
+$(PARTS)/version: FORCE
+	@mkdir -p $(@D)
+	@board/image/version.sh | cmp -s - $@ || board/image/version.sh >$@
+
+.PHONY: bundle signing-key FORCE
+bundle: setup-image ## Make a signed update: make BOARD=rpi4 SIGNING_KEY=signing.key SIGNING_CERT=signing.pem bundle
+	$(Q)$(MAKE) --no-print-directory programs $(BUILD)/wallwarp-$(BOARD).raucb
+$(BUILD)/wallwarp-$(BOARD).raucb: $(PARTS)/root.squashfs $(PARTS)/kernel.vfat $(SIGNING_KEY) $(SIGNING_CERT)
+	$(Q)board/image/bundle.sh $(BOARD) $(PARTS) $(SIGNING_CERT) $(SIGNING_KEY) $@
+	$(if $(filter $(DEVELOPMENT_KEY)/%,$(SIGNING_KEY)),@echo "signed with the development key of build/; for the boards of others make your own: make signing-key")
+signing-key: ## Make the key that your boards' updates are signed with: make DIR=FOLDER signing-key
+	$(if $(DIR),,$(error signing-key: say where it is to be kept: make DIR=FOLDER signing-key))
+	$(Q)board/image/signing_key.sh "$(DIR)"
+$(addprefix $(DEVELOPMENT_KEY)/,signing.key signing.pem ca.pem) &:
+	@echo "  KEY   $(DEVELOPMENT_KEY): for trying; for the boards of others make your own: make signing-key"
+	$(Q)rm -rf $(DEVELOPMENT_KEY); board/image/signing_key.sh $(DEVELOPMENT_KEY) 2>/dev/null
 
 # --- benchmarks -------------------------------------------------------------------------------------------------------
 

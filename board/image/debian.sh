@@ -27,7 +27,7 @@ fi
 
 # What the system needs, and what a person at the board wants; busybox has the rest.
 system='libc-bin dash kmod udev systemd systemd-sysv dbus iproute2 mount util-linux fdisk e2fsprogs busybox-static
-    dropbear-bin ca-certificates systemd-resolved systemd-timesyncd rauc libubootenv-tool base-files netbase'
+    dropbear-bin ca-certificates systemd-resolved systemd-timesyncd rauc rauc-service libubootenv-tool base-files netbase'
 tools='can-utils gpiod v4l-utils'
 # What the firmware is linked with, as board/NAME/info.c has it.
 libraries='libcyaml1 libmbedcrypto7 libmnl0 libgpiod2 libdrm2 libcamera0.0.3 libcamera-ipa liblo7 libjansson4 libcbor0.8

@@ -2,14 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 # Makes a board's root file system: Debian's programs without what a board never runs, the firmware, and its services.
 #
-# usage: board/image/root.sh BOARD DEBIAN OUT      DEBIAN is the folder of debian.sh; writes the tree OUT/root and its
-#                                                  squashfs OUT/root.squashfs
+# usage: board/image/root.sh BOARD DEBIAN CA VERSION OUT      DEBIAN is the folder of debian.sh, CA the certificate that
+#                                                             bundles must come from; writes the tree OUT/root and its
+#                                                             squashfs OUT/root.squashfs
 set -eu
-[ $# = 3 ] || { echo "usage: board/image/root.sh BOARD DEBIAN OUT" >&2; exit 2; }
+[ $# = 5 ] || { echo "usage: board/image/root.sh BOARD DEBIAN CA VERSION OUT" >&2; exit 2; }
 here=$(dirname "$0")
 board=$1
 debian=$2
-out=$3
+ca=$3
+update_version=$4
+out=$5
 root=$out/root
 version=$(basename "$debian"/kernel/lib/modules/*)
 
@@ -70,6 +73,7 @@ copy_firmware() {
     install -D -m 644 -t "$root/etc/udev/rules.d" board/service/60-wallwarp.rules
     install -D -m 644 -t "$root/etc/systemd/network" board/service/80-wallwarp-can.network
     install -D -m 644 -t "$root/etc/systemd/system" board/service/wallwarp.service
+    "$here/update_files.sh" "$board" "$root" "$ca" "$update_version"
     cp -r "$here/tree/." "$root/"
     [ ! -d "board/$board/tree" ] || cp -r "board/$board/tree/." "$root/"
 }

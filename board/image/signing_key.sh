@@ -71,7 +71,7 @@ certificate signing "/O=wallwarp/CN=bundles signed from $(date -u +%Y-%m-%d)" "$
 cat >&2 <<SAID
 signing-key: made $folder/signing.key and signing.pem
   make image  with CA=$folder/ca.pem
-  make bundle with KEY=$folder/signing.key CERT=$folder/signing.pem
+  make bundle with SIGNING_KEY=$folder/signing.key SIGNING_CERT=$folder/signing.pem
   Keep $folder/ca.key off this machine. Who has one of the two .key files can put anything on your boards: never
   commit them, never mail them.
 SAID
