@@ -69,6 +69,18 @@ static void test_every_key_is_read(void **state)
     assert_int_equal(config.workers, 4);
 }
 
+/* As editors of other systems write it. */
+static void test_line_ends_and_a_byte_order_mark_are_of_no_account(void **state)
+{
+    char path[SCRATCH_PATH_LENGTH];
+    write_config(*state, path, "\xef\xbb\xbfnode: 7\r\nroom: /r\r\n# can: can1\r\ndisplay: auto\r\n");
+    const board_config_t config = load_good(path);
+    assert_int_equal(config.node, 7);
+    assert_string_equal(config.room, "/r");
+    assert_string_equal(config.can, "");
+    assert_string_equal(config.display, "auto");
+}
+
 static void test_most_keys_may_be_left_out(void **state)
 {
     char path[SCRATCH_PATH_LENGTH];
@@ -227,6 +239,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_key_is_read),
+        cmocka_unit_test(test_line_ends_and_a_byte_order_mark_are_of_no_account),
         cmocka_unit_test(test_most_keys_may_be_left_out),
         cmocka_unit_test(test_files_are_beside_the_configuration),
         cmocka_unit_test(test_what_is_wrong_is_refused),
