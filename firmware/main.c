@@ -5,6 +5,7 @@
 
 #include "firmware/notice.h"
 #include "firmware/projector.h"
+#include "firmware/say.h"
 #include "firmware/self_check.h"
 
 enum { DONE = 0, FAILED = 1 };
@@ -54,7 +55,7 @@ static int say(projector_t *projector, const notice_t *notice, setup_t *setup, b
     if (notice->node == 0)
         devices->can = NULL;
     if (hal_board_open_some(&board, devices, error) != HAL_OK) {
-        fprintf(stderr, "wallwarp: %s\n", error);
+        say_error(error);
         return FAILED;
     }
     notice_init(projector, notice, &board, &setup->room);
@@ -86,7 +87,7 @@ static int work(setup_t *setup, options_t *options)
     } else {
         notice_t notice = {.reason = error, .node = options->node, .deaf = !key};
         (void)snprintf(notice.board, sizeof notice.board, "%s", known ? setup->board->name : devices.name);
-        fprintf(stderr, "wallwarp: %s\n", error);
+        say_error(error);
         status = options->config == NULL ? FAILED : say(&projector, &notice, setup, &devices, known);
     }
     setup_close(setup);
@@ -98,7 +99,7 @@ static int switch_off(const board_table_t *devices)
     char error[HAL_BOARD_ERROR_LENGTH];
     if (hal_board_outputs_off(devices, error) == HAL_OK)
         return DONE;
-    fprintf(stderr, "wallwarp: %s\n", error);
+    say_error(error);
     return FAILED;
 }
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "firmware/auth_key.h"
+#include "firmware/say.h"
 #include "hal/hal_random.h"
 
 _Static_assert((int)HAL_KEY_ERROR_LENGTH <= (int)ROOM_MESSAGE_LENGTH, "what is said of a key must fit");
@@ -12,7 +13,7 @@ _Static_assert((int)HAL_KEY_ERROR_LENGTH <= (int)ROOM_MESSAGE_LENGTH, "what is s
 static void print_warning(void *context, const char *line)
 {
     (void)context;
-    fprintf(stderr, "warning: %s\n", line);
+    say_warning(line);
 }
 
 bool setup_read_config(setup_t *setup, options_t *options, char error[ROOM_MESSAGE_LENGTH])

@@ -159,6 +159,20 @@ test_all_is_right() {
     end "the command line wins" 0
 }
 
+# Lines have their priority where stderr is the journal that systemd names, and nowhere else.
+test_journal() {
+    : >"$scratch/journal"
+    sed 's/\[-2400, -2700, 2400\], \[2400, -2700/[-2400, -2700, 2200], [2400, -2700/' $room >"$scratch/odd.yaml"
+    for journal in "$(stat -c %d:%i "$scratch/journal")" 1:2; do
+        JOURNAL_STREAM=$journal "$build/wallwarp" "$scratch/odd.yaml" --node 9 2>>"$scratch/journal"
+    done
+    "$build/wallwarp" "$scratch/odd.yaml" --node 9 2>>"$scratch/journal"
+    sed 's/: .*//' "$scratch/journal" >"$scratch/begins"
+    printf '%s\n' '<4>warning' '<3>wallwarp' warning wallwarp warning wallwarp | cmp -s - "$scratch/begins"
+    check "journal: $(cat "$scratch/journal")" $?
+}
+
+test_journal
 test_broken_room
 test_wrong_node
 test_wrong_configuration
