@@ -84,12 +84,14 @@ MUST_CHECK hal_status_t hal_board_open(hal_board_t *board, const board_table_t *
 
 /**
  * Open what is there of a board that can't do its work, so that it can say so: clock, bus as it is set up, display in
- * the size and rate that the projector prefers, lines, service manager, watchdog. What is missing is told on stderr.
+ * the size and rate that the projector prefers, lines, service manager, update agent, watchdog. What is missing is told
+ * on stderr.
  *
  * @param[out] board  Written only when HAL_OK is returned; then for hal_board_close(). Bus and display are NULL where
  *                    they could not be opened, camera and workers always; all others may be used, also where they do
  *                    nothing.
- * @param      table  As for hal_board_open(). A bus of NULL is left alone. Where the display is missing another one of
+ * @param      table  As for hal_board_open(). A bus of NULL is left alone; on another machine only the display is
+ *                    opened, as the rest may not be what its name says. Where the display is missing another one of
  *                    the board is taken, if there is one.
  * @param[out] error  On failure: one line.
  * @return HAL_OK; HAL_IO when not even that can be had.

@@ -245,13 +245,16 @@ hal_status_t hal_board_open(hal_board_t *board, const board_table_t *table, cons
 hal_status_t hal_board_open_some(hal_board_t *board, const board_table_t *table, char error[HAL_BOARD_ERROR_LENGTH])
 {
     const hal_board_needs_t any = {.fd = false};
+    const board_table_t foreign = {.name = table->name, .display = table->display};
+    const bool own = machine_linux_open("", table, error) == HAL_OK;
+    const board_table_t *safe = own ? table : &foreign; /* of another board, lines and watchdog are who knows what */
     hal_board_t opened = {0};
     for (int i = 0; i < DEVICES; i++) {
-        if (!devices[i].some || (devices[i].open == open_can && table->can == NULL) ||
-            devices[i].open(&opened, table, &any, error) == HAL_OK)
+        if (!devices[i].some || (devices[i].open == open_can && safe->can == NULL) ||
+            devices[i].open(&opened, safe, &any, error) == HAL_OK)
             continue;
         fprintf(stderr, "wallwarp: %s\n", error);
-        if (devices[i].in_place != NULL && devices[i].in_place(&opened, table, &any, error) != HAL_OK)
+        if (devices[i].in_place != NULL && devices[i].in_place(&opened, safe, &any, error) != HAL_OK)
             fprintf(stderr, "wallwarp: %s\n", error);
     }
     if (opened.clock == NULL || opened.gpio == NULL || opened.watchdog == NULL) {

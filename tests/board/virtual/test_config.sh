@@ -9,7 +9,7 @@ build=${1:?usage: test_config.sh BUILD_FOLDER_OF_THE_BOARD [BUILD_FOLDER_OF_THE_
 host=${2:-build/host}
 . tests/board/virtual/vm.sh
 . tests/board/virtual/firmware.sh
-. tests/board/virtual/checks.sh
+. tests/support/checks.sh
 
 config_fault=512 # of Heartbeat, wallwarp.dbc
 
@@ -32,7 +32,7 @@ says() {
         sleep 0.2
     done
     grep -qxF "wallwarp: $1" "$VM/share/firmware"
-    ok "${FUNCNAME[1]}: expected \"$1\"; said: $(cat "$VM/share/firmware")" $?
+    ok $? "${FUNCNAME[1]}: expected \"$1\"; said: $(cat "$VM/share/firmware")"
 }
 
 # shows NODE BOARD REASON: the display does, soon.
@@ -47,17 +47,17 @@ shows() {
         sleep 0.2
     done
     cmp "$VM/seen.ppm" "$VM/wanted.ppm"
-    ok "${FUNCNAME[1]}: the wall says \"$3\", at $size" $?
+    ok $? "${FUNCNAME[1]}: the wall says \"$3\", at $size"
 }
 
 # has_ended STATUS FOUND: it did so, and every device is free.
 has_ended() {
     [ "$1" = "$2" ]
-    ok "${FUNCNAME[1]}: exit status $2, expected $1" $?
+    ok $? "${FUNCNAME[1]}: exit status $2, expected $1"
     vm_run '! gpioinfo wallwarp | grep -q wallwarp\" &&
         [ "$(cat /sys/class/watchdog/watchdog0/state)" = inactive ] &&
         ! ls -l /proc/[0-9]*/fd 2>/dev/null | grep -q " /dev/video0\$\| /dev/dri/card0\$"'
-    ok "${FUNCNAME[1]}: devices are free" $?
+    ok $? "${FUNCNAME[1]}: devices are free"
 }
 
 test_broken_room() {
@@ -70,13 +70,13 @@ test_broken_room() {
     says "$reason"
     shows 1 qemu-virt "$reason"
     comes fault && [ "$(said)" = $config_fault ]
-    ok "heartbeats: faults $(said), expected $config_fault" $?
+    ok $? "heartbeats: faults $(said), expected $config_fault"
     [ "$(led) $(lamp)" = 'fast 1' ]
-    ok "the LED blinks fast, the lamp is on" $?
+    ok $? "the LED blinks fast, the lamp is on"
     vm_run "/tree/$build/wallwarp-pose command --bus can3 --node 1 hello" | grep -q '^board 1: wallwarp '
-    ok "it answers an operator" $?
+    ok $? "it answers an operator"
     vm_run 'sleep 3' && vm_alive
-    ok "the watchdog is fed" $?
+    ok $? "the watchdog is fed"
     has_ended 0 "$(end firmware)"
 }
 
@@ -88,7 +88,7 @@ test_missing_configuration() {
     says "$reason"
     shows 0 qemu-virt "$reason"
     ! came fault
-    ok "no heartbeats without a node" $?
+    ok $? "no heartbeats without a node"
     has_ended 0 "$(end firmware)"
 }
 
@@ -99,7 +99,7 @@ test_missing_camera() {
     configure 'node: 1' 'room: room.yaml' 'camera: v4l2:/dev/video99'
     begin
     comes fault && [ "$(said)" = $config_fault ]
-    ok "heartbeats: faults $(said), expected $config_fault" $?
+    ok $? "heartbeats: faults $(said), expected $config_fault"
     reason=$(sed -n 's/^wallwarp: \(.*video99.*\)/\1/p' "$VM/share/firmware" | tail -n 1)
     shows 1 front "$reason"
     vm_run 'while [ ! -s /share/firmware.status ]; do sleep 0.2; done'
@@ -114,7 +114,7 @@ test_other_bit_rate() {
     begin
     says "/share/room.yaml: no board has node 9"
     comes fault && [ "$(said)" = $config_fault ]
-    ok "heartbeats at 250 kbit/s: faults $(said), expected $config_fault" $?
+    ok $? "heartbeats at 250 kbit/s: faults $(said), expected $config_fault"
     has_ended 0 "$(end firmware)"
 }
 
