@@ -274,7 +274,7 @@ make_settings
 put_settings
 
 say "$dev: $(if [ "$kind" = disk ]; then described "$dev"; else echo "a $kind"; fi)"
-say "wallwarp-$board${node:+, node $node}${room:+, room $room}${key:+, key $key}"
+say "wallwarp-$board $(root_file usr/lib/wallwarp/version)${node:+, node $node}${room:+, room $room}${key:+, key $key}"
 [ "$kind" != disk ] || ask
 write_card
 say "done: $dev is a card for $board${node:+, node $node}; eject it"

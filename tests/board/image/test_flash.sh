@@ -32,7 +32,8 @@ part_from_file() { dd if="$2" of="$folder/card.img" bs=512 seek="${start[$1]}" c
 part_to_file() { dd if="$1" of="$folder/part" bs=512 skip="${start[$2]}" count="${size[$2]}" status=none; }
 
 make_image() {
-    mkdir -p "$folder/root/etc/rauc"
+    mkdir -p "$folder/root/etc/rauc" "$folder/root/usr/lib/wallwarp"
+    echo 1.2-test >"$folder/root/usr/lib/wallwarp/version"
     printf '[system]\ncompatible=wallwarp-qemu-virt\n' >"$folder/root/etc/rauc/system.conf"
     printf 'root:x:0:0::/:\nwallwarp:x:990:990::/:\n' >"$folder/root/etc/passwd"
     mksquashfs "$folder/root" "$folder/root.squashfs" -quiet -no-progress >"$folder/said"
@@ -175,7 +176,7 @@ run DEV="$folder/sdx" NODE=3 ROOM=sim/demo/room.yaml KEY="$folder/room.key" CAN=
     CAMERA='libcamera:\_SB_.PCI "0"' YES=1
 exits 0
 said "flash: $folder/sdx: Card of a test, 57.3MiB"
-said 'flash: wallwarp-qemu-virt, node 3, room sim/demo/room.yaml'
+said 'flash: wallwarp-qemu-virt 1.2-test, node 3, room sim/demo/room.yaml'
 is_whole "$folder/sdx"
 [ "$(tail -c +53477377 "$folder/sdx" | tr -d '\245' | wc -c)" = 0 ] && [ "$(stat -c %s "$folder/sdx")" = 60000000 ]
 ok $? 'beyond the image nothing is written'
