@@ -9,16 +9,12 @@ PATH=$PATH:/usr/sbin:/sbin
 bmap=${1%.xz}.bmap
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-passed=0 failed=0
+ok_files=$folder/said
+. "$(dirname "$0")/../../support/checks.sh"
 
-ok() {
-    if [ "$1" = 0 ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $2"
-        head -n 20 "$folder/said" | sed 's/^/    said: /'
-    fi
+expect() {
+    sed -i 20q "$folder/said"
+    ok "$1" "$2"
 }
 
 # bmaptool empties a file before it writes, so what it wrote is laid over the other bytes here.
@@ -43,22 +39,21 @@ take() {
 for part in card kernel-a kernel-b; do
     code=0
     take "$part" && fsck.vfat -n "$folder/part" >"$folder/said" 2>&1 || code=$?
-    ok $code "partition $part is no whole FAT file system"
+    expect $code "partition $part is no whole FAT file system"
 done
 code=0
 take data && e2fsck -fn "$folder/part" >"$folder/said" 2>&1 || code=$?
-ok $code "partition data is no whole ext4 file system"
+expect $code "partition data is no whole ext4 file system"
 for part in root-a root-b; do
     code=0
     take "$part" && mv "$folder/part" "$folder/root"
     unsquashfs -s "$folder/root" >"$folder/said" 2>&1 && unsquashfs -d "$folder/files" "$folder/root" -no-xattrs \
         -quiet -no-progress >>"$folder/said" 2>&1 || code=$?
     rm -rf "$folder/files"
-    ok $code "partition $part is no whole squashfs"
+    expect $code "partition $part is no whole squashfs"
 done
 # Its two copies have a CRC, and RAUC makes what is not there: no bytes of another card may be there.
 code=0
 take state && ! grep -qc "$(printf '\245')" "$folder/part" 2>"$folder/said" || code=1
-ok $code "partition state holds what the card had before"
-echo "$passed passed, $failed failed"
-[ "$failed" = 0 ]
+expect $code "partition state holds what the card had before"
+ok_end

@@ -10,17 +10,8 @@ root=$PWD
 flash=board/image/flash.sh
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-passed=0 failed=0 name=
-
-ok() {
-    if [ "$1" = 0 ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED: $name: $2"
-        head -n 20 "$folder/said" | sed 's/^/    said: /'
-    fi
-}
+ok_files=$folder/said
+. tests/support/checks.sh
 
 # --- a small image of the same partitions -----------------------------------------------------------------------------
 
@@ -117,12 +108,12 @@ run() {
 
 said() {
     grep -qF -e "$1" "$folder/said"
-    ok $? "says '$1'"
+    ok $? "$name: says '$1'"
 }
 
 exits() {
     [ "$code" = "$1" ]
-    ok $? "exit status $1, found $code"
+    ok $? "$name: exit status $1, found $code"
 }
 
 # The last run ended with one line that says this, and left the disk or file as it was, and nothing else behind.
@@ -130,13 +121,13 @@ refused() {
     exits "$1"
     said "$2"
     [ "$(grep -vc 'flash: unpacking' "$folder/said")" = 1 ]
-    ok $? "refuses in one line"
+    ok $? "$name: refuses in one line"
     [ ! -e "$folder/sdx" ] || cmp -s "$folder/sdx" "$folder/sdx.before"
-    ok $? "leaves the disk as it was"
+    ok $? "$name: leaves the disk as it was"
     [ ! -e "$folder/made.img" ]
-    ok $? "makes no file"
+    ok $? "$name: makes no file"
     [ -z "$(find build -mindepth 2 2>/dev/null)" ]
-    ok $? "leaves nothing behind"
+    ok $? "$name: leaves nothing behind"
 }
 
 # --- what is written --------------------------------------------------------------------------------------------------
@@ -146,11 +137,13 @@ data_of() { debugfs -R "$2" "$1?offset=$((512 * start[data]))" 2>/dev/null; }
 
 is_whole() {
     part_to_file "$1" card && fsck.vfat -n "$folder/part" >"$folder/said" 2>&1
-    ok $? "the FAT file system is whole"
+    ok $? "$name: the FAT file system is whole"
     part_to_file "$1" data && e2fsck -fn "$folder/part" >"$folder/said" 2>&1
-    ok $? "the data partition is whole"
+    found=$?
+    sed -i 20q "$folder/said"
+    ok $found "$name: the data partition is whole"
     part_to_file "$1" root-a && cmp -s -n "$(stat -c %s "$folder/root.squashfs")" "$folder/part" "$folder/root.squashfs"
-    ok $? "the root slot is the image's"
+    ok $? "$name: the root slot is the image's"
 }
 
 # A tree of its own, whose build folder is nobody else's.
@@ -166,9 +159,9 @@ name='a file, nothing but the image'
 run DEV="$folder/card1.img"
 exits 0
 cmp -s "$folder/card1.img" "$folder/card.img"
-ok $? 'the same bytes'
+ok $? "$name: the same bytes"
 [ "$(stat -c %a "$folder/card1.img")" = 600 ]
-ok $? 'nobody else may read it'
+ok $? "$name: nobody else may read it"
 
 name='a disk that was full of something else, all settings'
 make_disk sdx 60000000
@@ -179,7 +172,7 @@ said "flash: $folder/sdx: Card of a test, 57.3MiB"
 said 'flash: wallwarp-qemu-virt 1.2-test, node 3, room sim/demo/room.yaml'
 is_whole "$folder/sdx"
 [ "$(tail -c +53477377 "$folder/sdx" | tr -d '\245' | wc -c)" = 0 ] && [ "$(stat -c %s "$folder/sdx")" = 60000000 ]
-ok $? 'beyond the image nothing is written'
+ok $? "$name: beyond the image nothing is written"
 settings_of "$folder/sdx" >"$folder/settings"
 diff - "$folder/settings" >"$folder/said" <<'END'
 # This board.
@@ -194,19 +187,19 @@ can: 'can1'
 display: 'it''s'
 camera: 'libcamera:\_SB_.PCI "0"'
 END
-ok $? 'the settings are those asked for, the rest of the file is as it was'
+ok $? "$name: the settings are those asked for, the rest of the file is as it was"
 data_of "$folder/sdx" 'cat room.yaml' | cmp -s - sim/demo/room.yaml
-ok $? 'the room file is on the data partition'
+ok $? "$name: the room file is on the data partition"
 data_of "$folder/sdx" 'cat room.key' | cmp -s - "$folder/room.key"
-ok $? 'so is the key'
+ok $? "$name: so is the key"
 data_of "$folder/sdx" 'stat room.key' >"$folder/said"
 grep -q 'Type: regular *Mode: *0600 ' "$folder/said" && grep -q 'User: *990 ' "$folder/said"
-ok $? 'the key is of the user wallwarp alone'
+ok $? "$name: the key is of the user wallwarp alone"
 data_of "$folder/sdx" 'stat room.yaml' >"$folder/said"
 grep -q 'Type: regular *Mode: *0644 ' "$folder/said" && grep -q 'User: *0 *Group: *0 ' "$folder/said"
-ok $? 'the room is for all to read'
+ok $? "$name: the room is for all to read"
 grep -q "^blockdev --flushbufs $folder/sdx,  locked$" "$folder/flushed"
-ok $? 'what is compared comes from the disk, and nobody else has it'
+ok $? "$name: what is compared comes from the disk, and nobody else has it"
 
 name='two cards of a room'
 run DEV="$folder/card1.img" NODE=1 ROOM=sim/demo/room.yaml KEY="$folder/room.key"
@@ -215,7 +208,7 @@ sleep 1.1 # were there a time in it, it would be another one
 run DEV="$folder/card2.img" NODE=2 ROOM=sim/demo/room.yaml KEY="$folder/room.key"
 exits 0
 [ "$(cmp -l "$folder/card1.img" "$folder/card2.img" | awk '{print $2, $3}')" = '61 62' ]
-ok $? 'differ in the digit of the node, and in no other byte'
+ok $? "$name: differ in the digit of the node, and in no other byte"
 
 # --- what is refused --------------------------------------------------------------------------------------------------
 
@@ -230,12 +223,12 @@ run
 exits 2
 said 'expected DEV=, one of these disks'
 [ "$(cat "$folder/out")" = "  DEV=$disk  Card of a test, 57.3MiB" ]
-ok $? "lists the free disk alone: $(cat "$folder/out")"
+ok $? "$name: lists the free disk alone: $(cat "$folder/out")"
 tell_lsblk sdx RO 1
 run
 exits 2
 grep -q 'none is here that is not in use' "$folder/out"
-ok $? 'says that there is none'
+ok $? "$name: says that there is none"
 tell_lsblk sdx RO 0
 
 name='device'
@@ -284,11 +277,11 @@ said "$disk: Card of a test, 57.3MiB"
 said 'Type yes to go on'
 said 'nothing was written'
 cmp -s "$disk" "$disk.before"
-ok $? 'another answer than yes leaves the disk as it was'
+ok $? "$name: another answer than yes leaves the disk as it was"
 ask yes
 exits 0
 [ "$(settings_of "$disk" | grep -c '^node: 2$')" = 1 ]
-ok $? 'yes writes'
+ok $? "$name: yes writes"
 cp "$disk" "$disk.before"
 
 name='a disk that reads back otherwise'
@@ -398,15 +391,14 @@ for time in first second; do
     code=$?
     exits 0
     cmp -s "$folder/$time.img" "$folder/card.img.before"
-    ok $? "the $time time: writes the image"
+    ok $? "$name: the $time time: writes the image"
 done
 [ "$(cat "$folder/made")" = 'make --no-print-directory BOARD=qemu-virt image' ]
-ok $? 'the image is made, once'
+ok $? "$name: the image is made, once"
 
 name='make flash'
 DISPLAY=:0 KEY=no NODE=9 make -C "$root" -n BOARD=qemu-virt flash DEV="my card.img" CAN=can1 >"$folder/said" 2>&1
 grep -q "board/image/flash.sh 'BOARD=qemu-virt' 'DEV=my card.img' *'CAN=can1' *\$" "$folder/said"
-ok $? 'takes what is on its command line, and not the variables of a desktop'
+ok $? "$name: takes what is on its command line, and not the variables of a desktop"
 
-echo "$passed passed, $failed failed"
-[ "$failed" = 0 ]
+ok_end
