@@ -37,12 +37,15 @@ name=kernel-b, size=64MiB, type=EBD0A0A2-B9E5-4433-87C0-68B6B72699C7, uuid=7A11B
 name=root-b, size=256MiB, type=L, uuid=7A11BA5E-0000-4000-8000-000000000006
 name=data, size=64MiB, type=L, uuid=7A11BA5E-0000-4000-8000-000000000007
 END
+# Zeros too: bmaptool writes no more than the file has, and a used card has other bytes in the rest.
 put() {
     local start
     start=$(sfdisk -d "$image" | sed -n "s/.*start= *\([0-9]*\),.*name=\"$1\".*/\1/p")
-    dd if="$2" of="$image" bs=512 seek="$start" conv=notrunc,sparse status=none
+    dd if="$2" of="$image" bs=512 seek="$start" conv=notrunc status=none
 }
+truncate -s 1M "$out/state"
 put card "$out/card.vfat"
+put state "$out/state"
 put kernel-a "$out/kernel.vfat"
 put root-a "$out/root.squashfs"
 put kernel-b "$out/kernel.vfat"
