@@ -21,10 +21,14 @@ static void ask(board_talk_t *talk, int64_t now_us)
     talk->heard_us = now_us;
 }
 
-/* Ask the next one that is due. One request a turn: many at once would fill the queue of an interface. */
-static void ask_next(board_talk_t *talk, int count, int64_t quiet_us)
+void board_talk_begin(board_talk_t *talk, int count)
 {
-    const int64_t now_us = sim_clock_monotonic_us();
+    for (int i = 0; i < count; i++)
+        talk[i] = (board_talk_t){.node = talk[i].node, .request = talk[i].request, .auth = talk[i].auth};
+}
+
+void board_talk_ask(board_talk_t *talk, int count, int64_t quiet_us, int64_t now_us)
+{
     for (int i = 0; i < count; i++) {
         const bool due = talk[i].tries == 0 || now_us - talk[i].heard_us >= quiet_us;
         if (talk[i].replied || !due || talk[i].tries == BOARD_TALK_TRIES)
@@ -81,19 +85,16 @@ static void take_reply(board_talk_t *talk, int64_t now_us)
         isotp_taken(&talk->link);
 }
 
-static bool send_due(pose_link_t *bus, board_talk_t *talk, int count, char error[POSE_LINK_MESSAGE_LENGTH])
+bool board_talk_next(board_talk_t *talk, int count, hal_can_frame_t *frame, int64_t now_us)
 {
-    hal_can_frame_t frame;
     for (int i = 0; i < count; i++)
-        while (talk[i].tries > 0 && isotp_next(&talk[i].link, &frame, sim_clock_monotonic_us()))
-            if (!pose_link_send(bus, &frame, 1, error))
-                return false;
-    return true;
+        if (talk[i].tries > 0 && isotp_next(&talk[i].link, frame, now_us))
+            return true;
+    return false;
 }
 
-static void take_frame(board_talk_t *talk, int count, const hal_can_frame_t *frame)
+void board_talk_hear(board_talk_t *talk, int count, const hal_can_frame_t *frame, int64_t now_us)
 {
-    const int64_t now_us = sim_clock_monotonic_us();
     for (int i = 0; i < count; i++) {
         talk[i].alive |= !frame->extended && frame->id == CAN_ID_HEARTBEAT + (uint32_t)talk[i].node;
         if (talk[i].tries == 0 || talk[i].replied || !isotp_take(&talk[i].link, frame, now_us))
@@ -104,9 +105,8 @@ static void take_frame(board_talk_t *talk, int count, const hal_can_frame_t *fra
     }
 }
 
-static bool all_settled(const board_talk_t *talk, int count, int64_t quiet_us)
+bool board_talk_settled(const board_talk_t *talk, int count, int64_t quiet_us, int64_t now_us)
 {
-    const int64_t now_us = sim_clock_monotonic_us();
     int settled = 0;
     for (int i = 0; i < count; i++)
         settled += talk[i].replied || (talk[i].tries == BOARD_TALK_TRIES && now_us - talk[i].heard_us >= quiet_us);
@@ -116,18 +116,18 @@ static bool all_settled(const board_talk_t *talk, int count, int64_t quiet_us)
 bool board_talk(pose_link_t *bus, board_talk_t *talk, int count, int64_t quiet_us, const volatile sig_atomic_t *stop,
                 char error[POSE_LINK_MESSAGE_LENGTH])
 {
-    for (int i = 0; i < count; i++)
-        talk[i] = (board_talk_t){.node = talk[i].node, .request = talk[i].request, .auth = talk[i].auth};
-    while (!all_settled(talk, count, quiet_us) && !*stop) {
-        ask_next(talk, count, quiet_us);
-        if (!send_due(bus, talk, count, error))
-            return false;
-        hal_can_frame_t frame;
+    hal_can_frame_t frame;
+    board_talk_begin(talk, count);
+    while (!board_talk_settled(talk, count, quiet_us, sim_clock_monotonic_us()) && !*stop) {
+        board_talk_ask(talk, count, quiet_us, sim_clock_monotonic_us());
+        while (board_talk_next(talk, count, &frame, sim_clock_monotonic_us()))
+            if (!pose_link_send(bus, &frame, 1, error))
+                return false;
         const pose_link_heard_t heard = pose_link_receive(bus, &frame, WAIT_MS, error);
         if (heard == POSE_LINK_ENDED)
             return false;
         if (heard == POSE_LINK_FRAME)
-            take_frame(talk, count, &frame);
+            board_talk_hear(talk, count, &frame, sim_clock_monotonic_us());
     }
     return true;
 }

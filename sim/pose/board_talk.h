@@ -34,6 +34,26 @@ typedef struct {
     int64_t heard_us;
 } board_talk_t;
 
+/** Begin anew: of each, node, request and auth stay. Each node once. */
+void board_talk_begin(board_talk_t *talk, int count);
+
+/**
+ * Ask the next board that is due. Call it once a turn, every millisecond or so: many requests at once would fill the
+ * queue of an interface.
+ *
+ * @param now_us  Of any steady clock, as below.
+ */
+void board_talk_ask(board_talk_t *talk, int count, int64_t quiet_us, int64_t now_us);
+
+/** @return Is there a frame to be sent now? Call it until there is none, each turn. */
+bool board_talk_next(board_talk_t *talk, int count, hal_can_frame_t *frame, int64_t now_us);
+
+/** Hear a frame from the bus. */
+void board_talk_hear(board_talk_t *talk, int count, const hal_can_frame_t *frame, int64_t now_us);
+
+/** @return Have all replied, or been given up? */
+bool board_talk_settled(const board_talk_t *talk, int count, int64_t quiet_us, int64_t now_us);
+
 /**
  * Send requests and wait for the replies, until all are here or given up.
  *

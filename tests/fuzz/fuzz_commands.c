@@ -54,12 +54,9 @@ static hal_can_t can;
 int LLVMFuzzerInitialize(int *argc, char ***argv)
 {
     const uint8_t border[3] = {0, 0, 0};
-    static const sim_update_settings_t update = {.running = "0.5", .install_us = 1000000, .reboot_us = 1000000};
-    char error[FILE_ERROR_LENGTH];
     (void)argc;
     (void)argv;
     projector.board.can = &can;
-    projector.board.update = sim_update_create(&update, 0, error);
     projector.node = NODE;
     projector.choice.clock.rate = (frame_rate_t){60, 1};
     projector.room_method = warp_method_default();
@@ -81,10 +78,11 @@ static void check_wishes(void)
     c->reboot = false;
 }
 
+static int64_t switched_us; /* as it was after the step before */
+
 /* A switch is asked for after a promise and its confirmation only, and its moment is not far. */
 static void check_update(update_plan_t plan, int64_t now_us)
 {
-    static int64_t switched_us = INT64_MIN;
     const update_t *u = &projector.update;
     fuzz_check((unsigned)u->plan < UPDATE_PLANS, "the plan is one");
     fuzz_check(u->plan == UPDATE_NO_PLAN || u->switch_us - now_us <= 2 * (int64_t)UPDATE_MOST_AHEAD_US,
@@ -196,7 +194,11 @@ static void one_turn(input_t *input, int64_t *now_us)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     input_t input = {data, size};
+    static const sim_update_settings_t update = {.running = "0.5", .install_us = 1000000, .reboot_us = 1000000};
+    char error[FILE_ERROR_LENGTH];
     int64_t now_us = 1000000;
+    projector.board.update = sim_update_create(&update, now_us, error);
+    switched_us = INT64_MIN;
     commands_init(&projector.commands, NODE, 0);
     update_init(&projector.update, now_us);
     bus_time_begin(&projector.time.time, now_us, now_us);
@@ -206,5 +208,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     projector_begin_ladder(&projector);
     while (input.left > 0)
         one_turn(&input, &now_us);
+    sim_update_destroy(projector.board.update);
     return 0;
 }
