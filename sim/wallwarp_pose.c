@@ -11,8 +11,9 @@ static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
 } commands[] = {
-    {"send", command_send},       {"bridge", command_bridge}, {"record", command_record}, {"replay", command_replay},
-    {"monitor", command_monitor}, {"check", command_check},   {"fault", command_fault},   {"command", command_command},
+    {"send", command_send},     {"bridge", command_bridge},   {"record", command_record},
+    {"replay", command_replay}, {"monitor", command_monitor}, {"check", command_check},
+    {"fault", command_fault},   {"command", command_command}, {"update", command_update},
 };
 
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
@@ -58,7 +59,8 @@ int main(int argc, char **argv)
                "  monitor    show poses, rates, losses, boards and load, live\n"
                "  check      say whether a bus is healthy\n"
                "  fault      make a bus bad on purpose\n"
-               "  command    tell boards something, or ask them\n\n"
+               "  command    tell boards something, or ask them\n"
+               "  update     all boards of a room to another version, as one\n\n"
                "`wallwarp-pose COMMAND --help` says more about a command.",
     };
     char name[32]; /* how argp names the command in its messages */

@@ -11,6 +11,7 @@
 #include "sim/options.h"
 #include "sim/program.h"
 #include "sim/run/run_options.h"
+#include "sim/update/update_command.h"
 
 enum { KEY_BOARD = 256, KEY_POSE, KEY_IN, KEY_OUT, KEY_METHOD, KEY_KERNELS };
 
@@ -123,18 +124,24 @@ static int warp_command(int argc, char **argv)
 
 static const char usage[] = "Usage: wallwarp-sim COMMAND ...\n"
                             "A room of boards, simulated on this machine.\n\n"
-                            "  run   every board of a room runs the real firmware over a simulated bus\n"
-                            "  warp  one wall, one pose: one picture\n\n"
+                            "  run     every board of a room runs the real firmware over a simulated bus\n"
+                            "  update  all boards of a room to another version, as one, and what goes wrong\n"
+                            "  warp    one wall, one pose: one picture\n\n"
                             "wallwarp-sim COMMAND --help tells the rest. Exit status: 0 done, 1 failed, 2 bad usage.\n";
 
 int main(int argc, char **argv)
 {
-    static char run_name[] = "wallwarp-sim run", warp_name[] = "wallwarp-sim warp";
+    static char run_name[] = "wallwarp-sim run", update_name[] = "wallwarp-sim update",
+                warp_name[] = "wallwarp-sim warp";
     const char *command = argc > 1 ? argv[1] : "";
     argp_err_exit_status = PROGRAM_BAD_USAGE;
     if (strcmp(command, "run") == 0) {
         argv[1] = run_name;
         return run_command(argc - 1, argv + 1);
+    }
+    if (strcmp(command, "update") == 0) {
+        argv[1] = update_name;
+        return update_command(argc - 1, argv + 1);
     }
     if (strcmp(command, "warp") == 0) {
         argv[1] = warp_name;
@@ -145,7 +152,7 @@ int main(int argc, char **argv)
         return program_finish("wallwarp-sim");
     }
     if (argc > 1)
-        fprintf(stderr, "wallwarp-sim: found \"%s\", expected run or warp\n", command);
+        fprintf(stderr, "wallwarp-sim: found \"%s\", expected run, update or warp\n", command);
     fputs(usage, stderr);
     return PROGRAM_BAD_USAGE;
 }

@@ -20,6 +20,7 @@ int command_monitor(int argc, char **argv);
 int command_check(int argc, char **argv);
 int command_fault(int argc, char **argv);
 int command_command(int argc, char **argv);
+int command_update(int argc, char **argv);
 
 /** From now on SIGINT and SIGTERM set the flag instead of ending the program. @return The flag. */
 const volatile sig_atomic_t *command_catch_stop(void);

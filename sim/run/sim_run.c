@@ -130,6 +130,7 @@ static bool open_key(run_t *run)
 
 static bool open_world(run_t *run)
 {
+    static const sim_update_settings_t update = {.running = "0.5", .install_us = 5000000, .reboot_us = 3000000};
     const sim_world_config_t config = {
         .room = &run->room,
         .video = run->video,
@@ -142,6 +143,7 @@ static bool open_world(run_t *run)
         .refresh = run->loop.refresh,
         .seed = run->seed,
         .key = run->key,
+        .update = &update,
     };
     run->world = sim_world_create(&config, run->error);
     if (run->world == NULL)

@@ -222,6 +222,7 @@ room_update_result_t update_play_installed(const update_play_t *p)
 update_play_look_t update_play_look(const update_play_t *p, int board)
 {
     const hal_update_state_t *said = sim_update_said(agent(p, board));
+    const update_t *board_side = &sim_world_projector(p->world, board)->update;
     const bool new = strcmp(said->running, update_play_new) == 0;
     switch (said->doing) {
     case HAL_UPDATE_SWITCHING:
@@ -231,8 +232,9 @@ update_play_look_t update_play_look(const update_play_t *p, int board)
     case HAL_UPDATE_FAILED:
         return UPDATE_PLAY_FAILED;
     case HAL_UPDATE_READY:
-        return sim_world_projector(p->world, board)->update.plan == UPDATE_NO_PLAN ? UPDATE_PLAY_READY
-                                                                                   : UPDATE_PLAY_PROMISED;
+        if (board_side->said.doing == HAL_UPDATE_SWITCHING)
+            return UPDATE_PLAY_DOWN; /* its agent has not heard it yet */
+        return board_side->plan == UPDATE_NO_PLAN ? UPDATE_PLAY_READY : UPDATE_PLAY_PROMISED;
     case HAL_UPDATE_IDLE:
     case HAL_UPDATE_DOINGS:
         break;

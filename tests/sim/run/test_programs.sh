@@ -182,7 +182,7 @@ test_firmware() {
 
 test_bad_runs() {
     set -- "$build/wallwarp-sim" run "$scratch/fd.yaml" --out "$scratch/bad"
-    refuses 2 "expected run or warp" "$build/wallwarp-sim" runs
+    refuses 2 "expected run, update or warp" "$build/wallwarp-sim" runs
     refuses 2 "Usage" "$build/wallwarp-sim"
     refuses 2 "scalar or neon" "$@" --kernels NEON
     refuses 2 "--video" "$@" --poses "$scratch/ten.csv"
