@@ -212,7 +212,7 @@ static const struct {
     {open_display, close_display, true, open_any_display},
     {open_lines, close_lines, true, open_no_lines},
     {open_service, close_service, true, NULL},
-    {open_update, close_update, false, NULL},
+    {open_update, close_update, true, NULL},
     {open_workers, close_workers, false, NULL},
     {open_watchdog, close_watchdog, true, open_no_watchdog},
 };

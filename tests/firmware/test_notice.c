@@ -1,134 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A board that can't do its work: its wall, its heartbeats, what it does for operators, and its signs of life.
-#include "firmware/notice.h"
+#include "tests/firmware/notice_bench.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
-#include "sim/bus/sim_bus.h"
-#include "sim/devices/sim_clock.h"
-#include "sim/devices/sim_display.h"
-#include "sim/devices/sim_gpio.h"
-#include "sim/devices/sim_service.h"
-#include "sim/devices/sim_watchdog.h"
-
-enum { WIDTH = 320, HEIGHT = 180, HZ = 60, NODE = 5, WATCHDOG_US = 2000000, FIRST_US = 1000000 };
-
-static const char reason[] = "room.yaml:3: boards[0].node: found 99, expected 1 to 63";
-
-static struct {
-    hal_board_t devices;
-    sim_bus_t *bus;
-    hal_can_t *others; /* on the bus */
-    isotp_t link;      /* an operator's */
-    room_t room;
-    notice_t notice;
-    int64_t now_us;
-    int steps;
-    uint32_t heartbeats, strangers; /* heard: heartbeats of this board, and frames that are neither these nor replies */
-    can_heartbeat_t heartbeat;      /* the newest */
-    int led_edges;
-} bench;
-
-static projector_t *projector;
-
-static int open_bench(void **state)
-{
-    char error[FILE_ERROR_LENGTH] = "";
-    (void)state;
-    memset(&bench, 0, sizeof bench);
-    bench.now_us = FIRST_US;
-    bench.notice = (notice_t){.reason = reason, .board = "front", .node = NODE};
-    bench.bus = sim_bus_create(
-        &(sim_bus_config_t){.bitrate = 500000, .data_bitrate = 2000000, .fd = true, .start_us = FIRST_US});
-    hal_board_t *d = &bench.devices;
-    d->clock = sim_clock_create(&(sim_clock_settings_t){.epoch_us = FIRST_US}, error);
-    d->can = sim_bus_attach(bench.bus);
-    bench.others = sim_bus_attach(bench.bus);
-    const sim_display_settings_t display = {
-        .width = WIDTH, .height = HEIGHT, .clock = d->clock, .blanks = {FIRST_US, HZ, 1}};
-    d->display = sim_display_create(&display, error);
-    d->gpio = sim_gpio_create(d->clock, error);
-    d->watchdog = sim_watchdog_create(d->clock, WATCHDOG_US, error);
-    d->service = sim_service_create(error);
-    isotp_init(&bench.link, CAN_ID_REPLY + NODE, CAN_ID_COMMAND + NODE);
-    projector = malloc(sizeof *projector);
-    return d->service == NULL || projector == NULL;
-}
-
-static int close_bench(void **state)
-{
-    (void)state;
-    sim_service_destroy(bench.devices.service);
-    sim_watchdog_destroy(bench.devices.watchdog);
-    sim_gpio_destroy(bench.devices.gpio);
-    sim_display_destroy(bench.devices.display);
-    sim_bus_destroy(bench.bus);
-    sim_clock_destroy(bench.devices.clock);
-    free(projector);
-    return 0;
-}
-
-static void begin(can_auth_t *key)
-{
-    notice_init(projector, &bench.notice, &bench.devices, &bench.room);
-    projector_use_key(projector, key, 1);
-}
-
-static void hear(void)
-{
-    hal_can_frame_t frame;
-    while (hal_can_receive(bench.others, &frame) == HAL_OK) {
-        if (isotp_take(&bench.link, &frame, bench.now_us))
-            continue;
-        const bool heartbeat = can_heartbeat_decode(&bench.heartbeat, &frame) == CAN_CHECK_OK;
-        bench.heartbeats += heartbeat && bench.heartbeat.node == NODE;
-        bench.strangers += !heartbeat || bench.heartbeat.node != NODE;
-    }
-    while (isotp_next(&bench.link, &frame, bench.now_us))
-        assert_int_equal(hal_can_send(bench.others, &frame), HAL_OK);
-}
-
-static void run(int milliseconds)
-{
-    for (const int end = bench.steps + milliseconds * HZ / 1000; bench.steps < end;) {
-        const bool led = sim_gpio_level(bench.devices.gpio, HAL_GPIO_LED);
-        bench.now_us = FIRST_US + (int64_t)++bench.steps * 1000000 / HZ;
-        sim_clock_set_us(bench.devices.clock, bench.now_us);
-        sim_bus_advance(bench.bus, bench.now_us);
-        sim_display_advance(bench.devices.display, bench.now_us);
-        notice_step(projector, &bench.notice);
-        hear();
-        bench.led_edges += led != sim_gpio_level(bench.devices.gpio, HAL_GPIO_LED);
-    }
-}
-
-/* @return The result in the reply; -1: none came. */
-static int ask(const void *request, int length)
-{
-    const uint8_t *reply;
-    assert_true(isotp_send(&bench.link, request, length, bench.now_us));
-    for (int i = 0; i < 2 * HZ; i++) {
-        run(20);
-        if (isotp_received(&bench.link, &reply) > 1) {
-            const int result = reply[1];
-            isotp_taken(&bench.link);
-            return result;
-        }
-    }
-    return -1;
-}
-
-static int ask_command(command_t command)
-{
-    uint8_t bytes[COMMAND_MAX_BYTES];
-    return ask(bytes, command_encode(bytes, &command));
-}
+#include "sim/devices/sim_update.h"
 
 static bool shows(const safe_picture_t *what)
 {
@@ -232,6 +106,26 @@ static void with_a_key_a_code_is_needed(void **state)
     can_auth_close(key);
 }
 
+/* One that mends what is wrong may be on its way; but this one is not good. */
+static void updates_are_installed_and_none_is_good(void **state)
+{
+    (void)state;
+    char error[FILE_ERROR_LENGTH] = "";
+    const sim_update_settings_t settings = {.running = "1", .install_us = 60000000, .reboot_us = 1000000};
+    bench.devices.update = sim_update_create(&settings, bench.now_us, error);
+    assert_string_equal(error, "");
+    begin(NULL);
+    run(1000);
+    assert_int_equal(
+        ask_command((command_t){.kind = COMMAND_UPDATE, .update = COMMAND_UPDATE_INSTALL, .text = "/wallwarp-2.raucb"}),
+        COMMAND_OK);
+    (void)sim_update_advance(bench.devices.update, bench.now_us + SIM_UPDATE_TAKE_US);
+    assert_int_equal(sim_update_said(bench.devices.update)->doing, HAL_UPDATE_INSTALLING);
+    run(15000);
+    assert_int_equal(projector->update.healthy, 0);
+    sim_update_destroy(bench.devices.update);
+}
+
 static void a_display_that_hangs_is_no_life(void **state)
 {
     (void)state;
@@ -284,6 +178,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_reboot_is_one, open_bench, close_bench),
         cmocka_unit_test_setup_teardown(without_a_key_that_there_may_be_nobody_is_served, open_bench, close_bench),
         cmocka_unit_test_setup_teardown(with_a_key_a_code_is_needed, open_bench, close_bench),
+        cmocka_unit_test_setup_teardown(updates_are_installed_and_none_is_good, open_bench, close_bench),
         cmocka_unit_test_setup_teardown(a_display_that_hangs_is_no_life, open_bench, close_bench),
         cmocka_unit_test_setup_teardown(what_is_missing_is_done_without, open_bench, close_bench),
     };

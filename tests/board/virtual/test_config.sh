@@ -83,7 +83,8 @@ test_broken_room() {
 # Another display is taken, and without a node no bus.
 test_missing_configuration() {
     rm -f "$VM/share/wallwarp.yaml"
-    local reason="/share/wallwarp.yaml:1: file: cannot be opened (No such file or directory), expected a board's configuration in YAML"
+    local reason="/share/wallwarp.yaml:1: file: cannot be opened (No such file or directory), expected a board's "
+    reason+="configuration in YAML"
     begin --display HDMI-A-9
     says "$reason"
     shows 0 qemu-virt "$reason"
@@ -110,9 +111,9 @@ test_missing_camera() {
 test_other_bit_rate() {
     vm_run 'for can in can2 can3; do
         ip link set $can down; ip link set $can up txqueuelen 64 type can bitrate 250000 fd off restart-ms 100; done'
-    configure 'node: 9' 'room: room.yaml'
+    configure 'node: 1' 'room: none.yaml'
     begin
-    says "/share/room.yaml: no board has node 9"
+    says "/share/none.yaml:1: file: cannot be opened (No such file or directory), expected a room file in YAML"
     comes fault && [ "$(said)" = $config_fault ]
     ok $? "heartbeats at 250 kbit/s: faults $(said), expected $config_fault"
     has_ended 0 "$(end firmware)"
