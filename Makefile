@@ -339,15 +339,20 @@ build/image.made: board/image/debian.sh board/debian.sh
 	$(if $(V),,@echo "  DEBIAN build/image")
 	$(Q)board/image/debian.sh build/image
 	$(Q)touch $@
-$(PARTS)/root.squashfs: build/image.made $(IMAGE_FILES) $(PROGRAMS:%=$(BUILD)/%) $(CA) $(PARTS)/version
+$(PARTS)/root.squashfs: build/image.made $(IMAGE_FILES) $(PROGRAMS:%=$(BUILD)/%) $(PARTS)/ca.pem \
+    $(PARTS)/version
 	$(if $(V),,@echo "  ROOT  $@")
-	$(Q)$(IMAGE_EPOCH) board/image/root.sh $(BOARD) build/image $(CA) "$$(cat $(PARTS)/version)" $(PARTS)
+	$(Q)$(IMAGE_EPOCH) board/image/root.sh $(BOARD) build/image $(PARTS)/ca.pem "$$(cat $(PARTS)/version)" $(PARTS)
 $(PARTS)/kernel.vfat: build/image.made $(IMAGE_FILES)
 	$(if $(V),,@echo "  SLOT  $@")
 	$(Q)$(IMAGE_EPOCH) board/image/slot.sh $(BOARD) build/image $(PARTS)
 $(BUILD)/wallwarp-$(BOARD).img: $(PARTS)/root.squashfs $(PARTS)/kernel.vfat
 	$(if $(V),,@echo "  IMAGE $@")
 	$(Q)$(IMAGE_EPOCH) board/image/image.sh $(BOARD) $(PARTS) $@
+# Another certificate is another image, whichever file is newer.
+$(PARTS)/ca.pem: $(CA) FORCE
+	@mkdir -p $(@D)
+	@cmp -s $< $@ || cp $< $@
 $(PARTS)/version: FORCE
 	@mkdir -p $(@D)
 	@board/image/version.sh | cmp -s - $@ || board/image/version.sh >$@
