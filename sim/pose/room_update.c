@@ -179,7 +179,7 @@ static void judge(room_update_t *u, int64_t now_us)
         u->next_us = u->switch_us + ROOM_UPDATE_ROUND_US;
         break;
     case ROOM_UPDATE_LOOK_AFTER:
-        room_update_judge_cancellation(u);
+        room_update_judge_cancellation(u, now_us);
         break;
     case ROOM_UPDATE_WATCH:
         room_update_judge_starts(u, now_us);

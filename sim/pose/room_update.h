@@ -32,7 +32,8 @@ enum {
     ROOM_UPDATE_ROUND_US = 1000000,       /**< between looks at the boards */
     ROOM_UPDATE_PATIENCE = 5,             /**< looks in a row at which an installing board may be silent */
     ROOM_UPDATE_INSTALL_US = 1800000000,  /**< an install that takes longer has failed */
-    ROOM_UPDATE_START_US = 300000000      /**< so has a version that is not good by then */
+    ROOM_UPDATE_START_US = 300000000,     /**< so has a version that is not good by then */
+    ROOM_UPDATE_AFTER_US = 60000000       /**< a board that may have switched all the same is looked for so long */
 };
 
 typedef enum { ROOM_UPDATE_STATUS, ROOM_UPDATE_INSTALL, ROOM_UPDATE_SWITCH, ROOM_UPDATE_CANCEL } room_update_task_t;

@@ -64,8 +64,7 @@ void room_update_choose_boards(room_update_t *u)
         board->asked = board->switches = version == NULL || !runs(board, version);
         if (!board->switches)
             continue;
-        const bool has_it = version != NULL && strcmp(board->status.other, version) == 0 &&
-                            (u->settings.version != NULL || board->status.state == CAN_UPDATE_READY);
+        const bool has_it = version != NULL && strcmp(board->status.other, version) == 0;
         board->trouble = !has_it ? ROOM_BOARD_OTHER : board->status.knows_time ? ROOM_BOARD_WELL : ROOM_BOARD_TIME;
     }
 }
@@ -107,15 +106,19 @@ void room_update_judge_starts(room_update_t *u, int64_t now_us)
         u->result = room_update_all_well(u) ? ROOM_UPDATE_DONE : ROOM_UPDATE_MIXED;
 }
 
-void room_update_judge_cancellation(room_update_t *u)
+void room_update_judge_cancellation(room_update_t *u, int64_t now_us)
 {
-    int switched = 0;
+    int switched = 0, unheard = 0;
     for (int i = 0; i < u->boards; i++) {
         const room_update_board_t *board = &u->board[i];
         const bool new = board->switches && (board->status.state == CAN_UPDATE_SWITCHING || runs(board, u->version));
-        switched += board->answered ? new : board->told;
+        switched += board->answered && new;
+        unheard += !board->answered && board->told;
     }
-    u->result = switched > 0 ? ROOM_UPDATE_MIXED : ROOM_UPDATE_CANCELLED;
+    u->next_us = now_us + ROOM_UPDATE_ROUND_US;
+    if (unheard > 0 && now_us - u->switch_us < ROOM_UPDATE_AFTER_US)
+        return;
+    u->result = switched + unheard > 0 ? ROOM_UPDATE_MIXED : ROOM_UPDATE_CANCELLED;
     if (u->result == ROOM_UPDATE_CANCELLED && u->settings.task == ROOM_UPDATE_CANCEL && room_update_all_well(u))
         u->result = ROOM_UPDATE_DONE;
 }

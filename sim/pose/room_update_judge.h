@@ -20,7 +20,8 @@ bool room_update_choose_moment(room_update_t *update, int64_t now_us);
 /** After a look behind the moment: go on, or how it has ended. */
 void room_update_judge_starts(room_update_t *update, int64_t now_us);
 
-/** After a cancellation: has a board switched all the same, or may one have? */
-void room_update_judge_cancellation(room_update_t *update);
+/** After a look behind a cancellation: has a board switched all the same, or may one have? Go on, or how it has ended.
+ */
+void room_update_judge_cancellation(room_update_t *update, int64_t now_us);
 
 #endif

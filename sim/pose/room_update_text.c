@@ -98,7 +98,7 @@ static void print_ways(FILE *file, const room_update_t *u)
     for (int i = 0; i < u->boards; i++)
         if (u->board[i].known && strcmp(u->board[i].status.running, u->version) == 0)
             former = u->board[i].status.other;
-    fprintf(file, "the room is mixed: not every board runs %s, or has said so\n", u->version);
+    fprintf(file, "the room is mixed, or may be: not every board runs %s, or has said so\n", u->version);
     if (former[0] != '\0')
         fprintf(file, "to have all run %s again: --switch --version %s\n", former, former);
     fprintf(file, "to try again: --install SOURCE of %s, then --switch --version %s\n", u->version, u->version);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "sim/devices/sim_update.h"
+#include "sim/pose/pose_sender.h"
 #include "sim/run/sim_world.h"
 
 enum {
@@ -22,6 +23,8 @@ enum {
 };
 
 const char update_play_old[] = "0.5", update_play_new[] = "0.6";
+static pose_list_entry_t nowhere = {.pose = {.quaternion_q30 = {1 << 30, 0, 0, 0}}};
+static const pose_list_t one_pose = {&nowhere, 1}; /* a tracker that has one, and bus time */
 static const char source[] = "/wallwarp-sim-0.6.raucb";
 
 struct update_play {
@@ -29,7 +32,8 @@ struct update_play {
     room_t room; /* small */
     video_t *video;
     sim_world_t *world;
-    hal_can_t *can; /* the operator's */
+    hal_can_t *can;        /* the operator's */
+    pose_sender_t tracker; /* with a key */
     room_update_t operator_side;
     room_update_result_t installed;
     int64_t step, now_us;
@@ -90,7 +94,14 @@ static bool open_world(update_play_t *p, char error[FILE_ERROR_LENGTH])
         sim_update_faults(agent(p, i))->install = s->failure[i] == UPDATE_PLAY_INSTALL;
         sim_update_faults(agent(p, i))->start = s->failure[i] == UPDATE_PLAY_CRASH;
     }
-    return p->can != NULL || file_error(error, "update", "no room on the bus for the operator");
+    const pose_sender_config_t tracker = {.bus = sim_world_bus(p->world),
+                                          .list = &one_pose,
+                                          .start_us = START_US,
+                                          .sync = true,
+                                          .key = s->key,
+                                          .session = s->seed};
+    const bool tracked = s->key == NULL || pose_sender_open(&p->tracker, &tracker);
+    return (p->can != NULL && tracked) || file_error(error, "update", "no room on the bus for operator and tracker");
 }
 
 update_play_t *update_play_open(const update_play_settings_t *settings, char error[FILE_ERROR_LENGTH])
@@ -160,6 +171,8 @@ static void operate(update_play_t *p, int64_t until_us)
     hal_can_frame_t frame;
     for (int turn = 1; turn <= TURNS; turn++) {
         const int64_t now_us = p->now_us + (until_us - p->now_us) * turn / TURNS;
+        if (p->settings.key != NULL)
+            pose_sender_advance(&p->tracker, now_us);
         sim_bus_advance(sim_world_bus(p->world), now_us);
         while (hal_can_receive(p->can, &frame) == HAL_OK)
             room_update_hear(&p->operator_side, &frame, now_us);

@@ -34,7 +34,7 @@ typedef struct {
     update_play_failure_t failure[ROOM_MAX_BOARDS]; /**< in the order of the room file */
     int64_t install_us, reboot_us, ahead_us;        /**< see sim_update.h and room_update.h */
     uint32_t lose_ppm;                              /**< of all frames on the bus are lost, of a million */
-    can_auth_t *key;                                /**< of the room; NULL: none */
+    can_auth_t *key; /**< of the room, must outlive the play: a tracker with it gives bus time then; NULL: none */
     uint64_t seed;
 } update_play_settings_t;
 

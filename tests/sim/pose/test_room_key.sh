@@ -21,7 +21,7 @@ boards_are() {
     tries=0
     while [ $tries -lt 30 ]; do
         pose_tool monitor --bus "$bus" --seconds 1.2
-        [ "$(tail -n 13 "$scratch/stdout" | grep -c "^     [$boards]  $1 .* $2 ")" -eq ${#boards} ] && break
+        [ "$(tail -n 16 "$scratch/stdout" | grep -c "^     [$boards]  $1 .* $2 ")" -eq ${#boards} ] && break
         tries=$((tries + 1))
     done
     [ $tries -lt 30 ]
