@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <poll.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,7 +27,9 @@ typedef struct {
     camera_wanted_t wanted;
     events_t events;
     libcamera_session_t *session; /* NULL: closed */
+    camera_places_t places;       /* of its devices */
     bool stuck;                   /* unplugged, and the library does not know */
+    bool back;                    /* plugged in again after that */
     libcamera_buffer_t buffer[CAMERA_BUFFERS_MAX];
     picture_t picture;  /* without data */
     int64_t picture_us; /* when the last one came, or the device began */
@@ -213,10 +216,35 @@ static bool open_device(void *source, char error[HAL_BOARD_ERROR_LENGTH])
     device_t *device = source;
     if (!camera_libcamera_start(&device->session, error))
         return false;
-    if (choose(device, error) && start(device, error))
-        return true;
-    close_device(device);
-    return false;
+    if (!choose(device, error) || !start(device, error)) {
+        close_device(device);
+        return false;
+    }
+    camera_places_note(&device->places);
+    if (!camera_places_have_usb(&device->places))
+        camera_udev_silence(); /* at the news that a sensor is back the library would end the program */
+    return true;
+}
+
+/* Devices that the library does not know to be gone are kept from it. */
+static void notice_unplugging(device_t *device)
+{
+    device->stuck = camera_unplugged();
+    if (device->stuck && !camera_places_have_usb(&device->places))
+        camera_unplugged_drop();
+}
+
+/* The safe picture is on the wall meanwhile. A new process can have what this one can't; told before it is done. */
+static void wait_for_return(device_t *device, char news[HAL_BOARD_ERROR_LENGTH])
+{
+    if (device->back)
+        (void)kill(getpid(), SIGTERM);
+    camera_exchange_withdraw(device->wanted.exchange);
+    device->back = device->back || camera_places_are_taken(&device->places);
+    (void)camera_fail(news, "%s",
+                      device->back
+                          ? "is back; this program ends, to be started anew by its service, or by you"
+                          : "is gone, and libcamera can't have it back; this program ends when it is here again");
 }
 
 static bool serve(void *source, char news[HAL_BOARD_ERROR_LENGTH])
@@ -229,10 +257,10 @@ static bool serve(void *source, char news[HAL_BOARD_ERROR_LENGTH])
     const int64_t silent_us = camera_now_us() - device->picture_us;
     if (is_gone(device))
         return camera_fail(news, "is gone; plug it in again");
-    device->stuck = device->stuck || ((!good || silent_us > 1000 * POLL_MS) && camera_unplugged());
+    if (!device->stuck && (!good || silent_us > 1000 * POLL_MS))
+        notice_unplugging(device);
     if (device->stuck) {
-        camera_exchange_withdraw(device->wanted.exchange);
-        (void)camera_fail(news, "is gone, and libcamera can't have it back; restart this program");
+        wait_for_return(device, news);
         return true;
     }
     if (!good)

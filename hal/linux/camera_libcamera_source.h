@@ -21,8 +21,10 @@
  * Times are of the sensor's first line (SensorTimestamp), on CLOCK_MONOTONIC (camera_stamp_us()).
  *
  * After a loss the whole library is started anew with each attempt to open. A USB camera comes back when it is plugged
- * in again; that needs udev, whose messages the library waits for. A sensor that fails while it runs stays lost until
- * the program is started again, which is said once: libcamera (0.0.3) would end the program when it is closed.
+ * in again; that needs udev, whose messages the library waits for. A sensor's devices that vanish while it runs are
+ * lost to the program: libcamera (0.0.3) would end it when it closes them, or when it hears from udev that they are
+ * back, which it is kept from. When they are, the program sends itself SIGTERM, so that it ends in order and its
+ * service starts it anew. Both are said.
  */
 extern const camera_source_t camera_libcamera;
 

@@ -6,7 +6,7 @@
 #                               room's size
 #   start NAME COMMAND          on the board; what it says is in $VM/share/NAME
 #   end NAME                    ends it, if it has not ended, and prints its exit status
-#   start_firmware ROOM BUS [OPTIONS]   that of the folder $build, with a room file of /share; NAME is firmware
+#   start_firmware ROOM BUS [OPTIONS]   that of the folder $build, in /run, with a room file of /share; NAME is firmware
 #   start_poses BUS POSE        NAME is poses
 #   still_picture PATTERN       the camera's, of vivid's menu
 #   heartbeats BUS              they are noted from now on
@@ -25,7 +25,7 @@ firmware_lines=/sys/devices/platform/gpio-sim.0/gpiochip1
 firmware_board() {
     vm_start "$1" -append 'console=ttyAMA0 panic=-1 quiet vt.global_cursor_default=0 video=Virtual-1:320x240@24' || return 1
     vm_run "cp /tree/$build/wallwarp /run/
-        for can in can0 can1; do ip link set \$can up type can bitrate 500000 restart-ms 100; done"
+        for can in can0 can1; do ip link set \$can up type can bitrate 500000 restart-ms 100; done" || return 1
     vm_in_memory /run/wallwarp
 }
 

@@ -228,18 +228,25 @@ test_libcamera() {
     vm_run 'kill -KILL $(pidof cam)'
 }
 
-# vimc can't be unplugged for libcamera, which would end the program if the camera was closed.
+# What libcamera can't have back in one process, a new one has; the old one ends in order when it is here again.
 test_libcamera_gone() {
-    start gone libcamera:0 48 48 30 1000000 hold 200
+    start gone libcamera:0 48 48 30 1000000 hold
     awaits gone picture 20
     ok $? "pictures before"
     vm_run 'echo vimc.0 >/sys/bus/platform/drivers/vimc/unbind'
-    awaits gone 'is gone, and libcamera'
+    awaits gone "is gone, and libcamera can't have it back"
     ok $? "gone is told"
-    awaits gone 'status 1'
-    ok $? "the program ends by itself"
+    vm_run 'sleep 2; pidof probe_camera >/dev/null'
+    ok $? "the program waits"
+    vm_run 'echo vimc.0 >/sys/bus/platform/drivers/vimc/bind; udevadm settle'
+    awaits gone 'is back; this program ends'
+    ok $? "back is told"
+    awaits gone 'status 143'
+    ok $? "the program ends by SIGTERM, and not by libcamera"
     said gone 'is gone' 1
+    said gone 'is back' 1
     vm_run 'rmmod vimc && modprobe vimc && udevadm settle && sleep 1'
+    ok $? "it holds nothing of the camera's"
     start again libcamera:0 48 48 30 10
     awaits again 'status 0'
     ok $? "a new program has it again"

@@ -112,6 +112,31 @@ test_camera() {
     is_well $camera_fault
 }
 
+# libcamera's, which a firmware that lost it can't have back: it ends when the sensor is here again.
+test_sensor() {
+    sed 's/width: 320, height: 180/width: 318, height: 180/' "$VM/share/room.yaml" >"$VM/share/sensor.yaml"
+    end firmware >/dev/null
+    start_firmware sensor.yaml can0 '--camera libcamera:0'
+    mark
+    comes running
+    ok "it runs with libcamera" $?
+    vm_run 'echo vimc.0 >/sys/bus/platform/drivers/vimc/unbind'
+    is fault fast safe
+    vm_run 'sleep 3; echo vimc.0 >/sys/bus/platform/drivers/vimc/bind
+        for try in $(seq 300); do [ -s /share/firmware.status ] && exit; sleep 0.1; done; exit 1'
+    ok "it ends by itself when the sensor is back; it said: $(cat "$VM/share/firmware")" $?
+    has_ended 0 "$(cat "$VM/share/firmware.status")"
+    vm_run 'rmmod vimc && modprobe vimc && udevadm settle'
+    start_firmware sensor.yaml can0 '--camera libcamera:0'
+    mark
+    comes running
+    ok "a new one has the sensor, and runs" $?
+    has_ended 0 "$(end firmware)"
+    start_firmware room.yaml can0
+    mark
+    comes running
+}
+
 # The wall is dark; a screenshot is then of what was last shown.
 test_display() {
     local status='/sys/class/drm/card0-Virtual-1/status'
@@ -226,7 +251,7 @@ done
 still_picture 4
 vm_screenshot "$VM/before.ppm"
 tests=${*:3}
-for test in ${tests:-refused_rooms start no_poses link flood camera display end end_in_mid_frame full_disk_and_bus_off killed stopped}; do
+for test in ${tests:-refused_rooms start no_poses link flood camera sensor display end end_in_mid_frame full_disk_and_bus_off killed stopped}; do
     "test_$test"
 done
 ok_end
