@@ -299,7 +299,8 @@ build/board-kernel/initramfs.gz: tests/board/virtual/initramfs.sh tests/board/vi
 	$(Q)tests/board/virtual/initramfs.sh build/sysroot build/board-kernel
 
 # Programs that its tests run on it, check_*.c and probe_*.c; other files there are parts of theirs.
-VIRTUAL_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/board/virtual/check_*.c tests/board/virtual/probe_*.c))
+VIRTUAL_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/board/virtual/check_*.c tests/board/virtual/probe_*.c) \
+                        tests/board/virtual/usb_camera.c)
 
 # What these are given to preload.
 HEAP_COUNTER     := $(BUILD)/tests/board/virtual/count_heap.so

@@ -137,6 +137,38 @@ test_sensor() {
     comes running
 }
 
+# plug: a USB camera into the board; `end usb` pulls it out.
+plug() {
+    start usb 'chrt -f 60 /run/usb_camera /dev/gadget'
+    vm_run 'try=0; while [ $((try += 1)) -le 50 ]; do
+            grep -lxs "UVC Camera.*" /sys/class/video4linux/*/name && exit; sleep 0.1; done; exit 1'
+    ok "the board sees a USB camera" $?
+}
+
+test_usb_camera() {
+    mv "$VM/corrected.ppm" "$VM/kept.ppm"
+    end firmware >/dev/null
+    vm_run "cp /tree/$build/tests/board/virtual/usb_camera /run/; modprobe -a dummy_hcd gadgetfs uvcvideo
+        mkdir /dev/gadget; mount -t gadgetfs gadget /dev/gadget"
+    plug >/dev/null
+    start_firmware room.yaml can0 "--camera 'v4l2:UVC Camera (1d6b:0104)'"
+    mark
+    comes running
+    vm_screenshot "$VM/corrected.ppm"
+    [ "$(wall safe before kept)" = other ]
+    ok "the wall has the USB camera's picture" $?
+    end usb >/dev/null
+    is fault fast safe
+    plug >/dev/null
+    is_well $camera_fault
+    end firmware >/dev/null
+    end usb >/dev/null
+    mv "$VM/kept.ppm" "$VM/corrected.ppm"
+    start_firmware room.yaml can0
+    mark
+    comes running
+}
+
 # The wall is dark; a screenshot is then of what was last shown.
 test_display() {
     local status='/sys/class/drm/card0-Virtual-1/status'
@@ -251,7 +283,7 @@ done
 still_picture 4
 vm_screenshot "$VM/before.ppm"
 tests=${*:3}
-for test in ${tests:-refused_rooms start no_poses link flood camera sensor display end end_in_mid_frame full_disk_and_bus_off killed stopped}; do
+for test in ${tests:-refused_rooms start no_poses link flood camera sensor usb_camera display end end_in_mid_frame full_disk_and_bus_off killed stopped}; do
     "test_$test"
 done
 ok_end
