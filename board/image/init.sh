@@ -7,8 +7,9 @@ busybox mount -t devtmpfs dev /dev
 busybox mkdir -p /proc /sys /root
 busybox mount -t proc proc /proc
 busybox mount -t sysfs sys /sys
-while read -r module; do
-    busybox insmod "/modules/$module"
+while read -r module parameters; do
+    # shellcheck disable=SC2086 # a word each
+    busybox insmod "/modules/$module" $parameters
 done </modules/order
 
 say() {

@@ -46,8 +46,7 @@ trim_start() {
         80-drivers.rules 99-systemd.rules
     for wants in "$root"/usr/lib/systemd/system/*.wants; do
         keep_only "systemd/system/${wants##*/}" systemd-journald.service systemd-journald.socket \
-            systemd-journald-dev-log.socket systemd-journal-flush.service systemd-modules-load.service \
-            systemd-sysctl.service systemd-tmpfiles-setup-dev.service systemd-tmpfiles-setup.service \
+            systemd-journald-dev-log.socket systemd-journal-flush.service systemd-tmpfiles-setup.service \
             systemd-udevd.service systemd-udevd-control.socket systemd-udevd-kernel.socket systemd-udev-trigger.service \
             dbus.socket
     done
@@ -86,6 +85,7 @@ set_up() {
     systemd-sysusers --root="$root" 2>"$out/users.log"
     ln -sfn /usr/lib/systemd/system/multi-user.target "$root/etc/systemd/system/default.target"
     xargs systemctl --root="$root" --quiet enable <"$here/enabled_units"
+    systemctl --root="$root" --quiet disable systemd-network-generator.service systemd-networkd-wait-online.service
     # A board without a clock starts no earlier than this.
     touch -d "@$SOURCE_DATE_EPOCH" "$root/usr/lib/clock-epoch"
 }

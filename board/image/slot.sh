@@ -14,8 +14,7 @@ files=$out/kernel
 rm -rf "$files"
 mkdir -p "$files"
 cp "$debian"/kernel/boot/vmlinuz-* "$files/vmlinuz"
-# shellcheck disable=SC2046 # a word each
-board/initramfs.sh "$debian/root/bin/busybox" "$here/init.sh" "$debian/kernel" "$files/initrd" \
-    $(sed 's/#.*//' "board/$board/modules_early")
+mapfile -t modules < <(grep -v '^#' "board/$board/modules_early")
+board/initramfs.sh "$debian/root/bin/busybox" "$here/init.sh" "$debian/kernel" "$files/initrd" "${modules[@]}"
 echo "$(cat "$here/cmdline") $(grep -v '^#' "board/$board/cmdline")" >"$files/cmdline"
 fat_image "$out/kernel.vfat" 64 KERNEL "$files"

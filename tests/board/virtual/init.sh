@@ -3,8 +3,9 @@
 # The virtual board's first program: stacks its root from folders of the host, and goes on in it.
 export PATH=/bin
 busybox mount -t devtmpfs dev /dev
-while read -r module; do
-    busybox insmod "/modules/$module"
+while read -r module parameters; do
+    # shellcheck disable=SC2086 # a word each
+    busybox insmod "/modules/$module" $parameters
 done </modules/order
 
 mount_9p() {
