@@ -207,7 +207,7 @@ CARD  := DEV IMAGE NODE ROOM KEY CAN DISPLAY CAMERA YES
 given  = $(foreach n,$(1),$(if $(filter command,$(firstword $(origin $(n)))),'$(n)=$(subst ','\'',$($(n)))'))
 .PHONY: flash
 flash: setup-flash ## Write a board's card: make BOARD=rpi4 flash DEV=/dev/sdX NODE=3 ROOM=studio.yaml; lists disks without DEV
-	$(Q)env -u MAKEFLAGS $(MAKE) -s build/host/wallwarp
+	$(Q)$(MAKE) -s BOARD=host BUILD=build/host build/host/wallwarp
 	$(Q)env -u MAKEFLAGS board/image/flash.sh 'BOARD=$(BOARD)' $(call given,$(CARD))
 
 # --- tests ------------------------------------------------------------------------------------------------------------

@@ -277,4 +277,4 @@ say "$dev: $(if [ "$kind" = disk ]; then described "$dev"; else echo "a $kind"; 
 say "wallwarp-$board $(root_file usr/lib/wallwarp/version)${node:+, node $node}${room:+, room $room}${key:+, key $key}"
 [ "$kind" != disk ] || ask
 write_card
-say "done: $dev is a card for $board${node:+, node $node}; eject it"
+say "done: $dev is a card for $board${node:+, node $node}$([ "$kind" != disk ] || echo "; eject it")"

@@ -397,8 +397,8 @@ done
 ok $? "$name: the image is made, once"
 
 name='make flash'
-DISPLAY=:0 KEY=no NODE=9 make -C "$root" -n BOARD=qemu-virt flash DEV="my card.img" CAN=can1 >"$folder/said" 2>&1
-grep -q "board/image/flash.sh 'BOARD=qemu-virt' 'DEV=my card.img' *'CAN=can1' *\$" "$folder/said"
+DISPLAY=:0 KEY=no NODE=9 make -C "$root" -n BOARD=qemu-virt flash DEV="my card.img" CAN="it's" >"$folder/said" 2>&1
+grep -q "board/image/flash.sh 'BOARD=qemu-virt' 'DEV=my card.img' *'CAN=it'\\\\''s' *\$" "$folder/said"
 ok $? "$name: takes what is on its command line, and not the variables of a desktop"
 
 ok_end
