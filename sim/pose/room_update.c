@@ -90,7 +90,7 @@ static void watch(room_update_t *u, int64_t next_us)
 static void confirm(room_update_t *u)
 {
     for (int i = 0; i < u->boards; i++)
-        u->board[i].told = u->board[i].switches;
+        u->board[i].asked = u->board[i].told = u->board[i].switches;
     tell(u, ROOM_UPDATE_CONFIRM, COMMAND_UPDATE_CONFIRM);
 }
 
@@ -118,15 +118,45 @@ static void begin_switch(room_update_t *u, int64_t now_us)
 /* --- one after the other --------------------------------------------------------------------------------------------
  */
 
+/* Ask those again that are silent, when nothing else is in the way. @return false when something is, or none is silent.
+ */
+static bool ask_silent_again(room_update_t *u, command_update_t what)
+{
+    int silent = 0, others = 0;
+    for (int i = 0; i < u->boards; i++) {
+        const room_board_trouble_t trouble = u->board[i].trouble;
+        u->board[i].asked = trouble == ROOM_BOARD_SILENT;
+        silent += trouble == ROOM_BOARD_SILENT;
+        others += trouble != ROOM_BOARD_SILENT && trouble != ROOM_BOARD_WELL;
+    }
+    if (silent == 0 || others > 0)
+        return false;
+    tell(u, u->step, what);
+    return true;
+}
+
+/* @return Is there time for one request more, before all must have promised, or heard that the moment holds? */
+static bool has_time(const room_update_t *u, int64_t now_us)
+{
+    const int64_t reserve_us = u->step == ROOM_UPDATE_PROMISE ? ROOM_UPDATE_PROMISED_US : ROOM_UPDATE_CONFIRMED_US;
+    return u->switch_us - now_us >= reserve_us + ROOM_UPDATE_TALK_US;
+}
+
 static void undo(room_update_t *u)
 {
     if (u->talking)
         take_answers(u);
+    for (int i = 0; i < u->boards; i++)
+        u->board[i].asked = u->board[i].switches;
     tell(u, ROOM_UPDATE_UNDO, COMMAND_UPDATE_CANCEL);
 }
 
 static void judge_look(room_update_t *u, int64_t now_us)
 {
+    if (u->again++ < ROOM_UPDATE_LOOKS_AGAIN && ask_silent_again(u, COMMAND_UPDATE_STATUS))
+        return;
+    for (int i = 0; i < u->boards; i++)
+        u->board[i].asked = true;
     switch (u->settings.task) {
     case ROOM_UPDATE_STATUS:
         u->result = room_update_all_well(u) ? ROOM_UPDATE_DONE : ROOM_UPDATE_REFUSED;
@@ -156,8 +186,9 @@ static void judge(room_update_t *u, int64_t now_us)
     case ROOM_UPDATE_BEGIN_INSTALL:
         u->step = ROOM_UPDATE_WAIT_INSTALL;
         u->next_us = now_us + ROOM_UPDATE_ROUND_US;
-        if (!room_update_all_well(u))
-            u->result = ROOM_UPDATE_FAILED;
+        for (int i = 0; i < u->boards; i++)
+            if (u->board[i].trouble != ROOM_BOARD_WELL && u->board[i].trouble != ROOM_BOARD_SILENT)
+                u->result = ROOM_UPDATE_FAILED; /* one that is silent may have heard it: the looks will tell */
         break;
     case ROOM_UPDATE_WAIT_INSTALL:
         room_update_judge_installs(u, now_us);
@@ -165,13 +196,13 @@ static void judge(room_update_t *u, int64_t now_us)
     case ROOM_UPDATE_PROMISE:
         if (room_update_all_well(u))
             confirm(u);
-        else
+        else if (!has_time(u, now_us) || !ask_silent_again(u, COMMAND_UPDATE_SWITCH))
             undo(u);
         break;
     case ROOM_UPDATE_CONFIRM:
         if (room_update_all_well(u))
             watch(u, u->switch_us + ROOM_UPDATE_ROUND_US);
-        else
+        else if (!has_time(u, now_us) || !ask_silent_again(u, COMMAND_UPDATE_CONFIRM))
             undo(u);
         break;
     case ROOM_UPDATE_UNDO:

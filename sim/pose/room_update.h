@@ -29,6 +29,8 @@ enum {
     ROOM_UPDATE_PROMISED_US = 2000000,    /**< before the moment all must have promised, */
     ROOM_UPDATE_CONFIRMED_US = 700000,    /**< and all must have heard that it holds */
     ROOM_UPDATE_QUIET_US = 400000,        /**< a board that is silent for so long is asked again */
+    ROOM_UPDATE_TALK_US = 1300000,        /**< all tries of one request take at most so long */
+    ROOM_UPDATE_LOOKS_AGAIN = 2,          /**< for boards that are silent, before anything is begun */
     ROOM_UPDATE_ROUND_US = 1000000,       /**< between looks at the boards */
     ROOM_UPDATE_PATIENCE = 5,             /**< looks in a row at which an installing board may be silent */
     ROOM_UPDATE_INSTALL_US = 1800000000,  /**< an install that takes longer has failed */
@@ -111,6 +113,7 @@ typedef struct {
 
     bool talking; /**< the module's own from here on */
     int64_t next_us;
+    int again; /**< times that the silent ones were looked for again */
     int talks;
     board_talk_t talk[ROOM_MAX_BOARDS];
     int of_board[ROOM_MAX_BOARDS];

@@ -10,7 +10,7 @@ bool room_update_all_well(const room_update_t *u)
 {
     int well = 0;
     for (int i = 0; i < u->boards; i++)
-        well += !u->board[i].asked || u->board[i].trouble == ROOM_BOARD_WELL;
+        well += u->board[i].trouble == ROOM_BOARD_WELL;
     return well == u->boards;
 }
 

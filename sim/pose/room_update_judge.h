@@ -5,7 +5,7 @@
 
 #include "sim/pose/room_update.h"
 
-/** @return Of those that were asked in the newest step, is none in the way? */
+/** @return Is no board in the way? */
 bool room_update_all_well(const room_update_t *update);
 
 /** After a look during an install: go on, or how it has ended. */
