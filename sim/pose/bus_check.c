@@ -8,6 +8,7 @@
 
 #include "firmware/projector.h"
 #include "sim/pose/bus_check_latency.h"
+#include "sim/pose/bus_check_update.h"
 #include "sim/pose/bus_judge.h"
 #include "sim/pose/event_text.h"
 
@@ -253,6 +254,7 @@ static int check_boards(bus_judge_t *judge, const bus_watch_t *watch)
             judge, watch->steps.compared > 0, "frames: %" PRId64 " refreshes compared%s", watch->steps.compared,
             watch->steps.compared > 0 ? ", all boards in step showed the same" : "; no two boards were in step");
     bus_check_latency(judge, watch);
+    bus_check_updates(judge, watch);
     return boards;
 }
 

@@ -210,7 +210,7 @@ static void test_each_fault_of_a_board_is_said(void **state)
     assert_said(&s, 1, "BAD  board 7: an operator has put a test pattern on; ");
 
     s = scene();
-    s.faults = CAN_FAULT_CAMERA | CAN_FAULT_DEADLINE | 1 << 9;
+    s.faults = CAN_FAULT_CAMERA | CAN_FAULT_DEADLINE | 1 << 15;
     play(&s);
     assert_said(&s, 1, "BAD  board 7: reports a fault: camera, deadline, one of a newer firmware");
 
