@@ -21,6 +21,14 @@ static void test_install(void **state)
     said = status();
     assert_int_equal(said.state, CAN_UPDATE_READY);
     assert_string_equal(said.waiting, "0.6");
+    room_bench_run(&bench, 1100);
+    const can_update_t *heard = &bench.voice[0].update;
+    assert_int_equal(heard->state, CAN_UPDATE_READY);
+    assert_int_equal(heard->progress, 100);
+    assert_int_equal(heard->slot, 1);
+    assert_int_equal(heard->running, can_update_fingerprint("0.5"));
+    assert_int_equal(heard->waiting, can_update_fingerprint("0.6"));
+    assert_false(heard->trial);
     assert_string_equal(said.other, "0.6");
     assert_false(said.trial);
     assert_well_again();
@@ -111,6 +119,7 @@ static void test_switch_at_its_moment(void **state)
     const int64_t local_us = projector()->update.switch_us, period_us = 1000000 / ROOM_BENCH_HZ;
     assert_int_equal(bus_time_from_local(&projector()->time.time, local_us), at_us);
     room_bench_run(&bench, 2300);
+    assert_int_equal(bench.voice[0].update.plan, UPDATE_CONFIRMED);
     assert_in_range(switched_us(0), local_us, local_us + period_us);
     room_bench_run(&bench, 1000);
     const uint32_t frames = report()->frame_number;
@@ -124,6 +133,9 @@ static void test_switch_at_its_moment(void **state)
     assert_int_equal(said.slot, 'B');
     assert_true(said.trial);
     assert_int_equal(said.state, CAN_UPDATE_IDLE);
+    room_bench_run(&bench, 1100);
+    assert_true(bench.voice[0].update.trial);
+    assert_int_equal(bench.voice[0].update.slot, 2);
     ask_update(COMMAND_UPDATE_INSTALL, 0, bundle, UPDATE_ON_TRIAL);
 }
 

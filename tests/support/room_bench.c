@@ -36,6 +36,7 @@ static void listen(void *context, int sender, const hal_can_frame_t *frame)
         can_status_t status;
         can_stage_t stage;
         can_quality_t quality;
+        can_update_t update;
         if (can_heartbeat_decode(&heartbeat, frame) == CAN_CHECK_OK && heartbeat.node == bench->room.board[i].node) {
             voice->heartbeats++;
             voice->flags_ever |= heartbeat.fault_flags;
@@ -50,6 +51,8 @@ static void listen(void *context, int sender, const hal_can_frame_t *frame)
             voice->stages++;
             voice->stage[stage.stage] = stage;
         }
+        if (can_update_decode(&update, frame) == CAN_CHECK_OK && update.node == bench->room.board[i].node)
+            voice->update = update;
         if (can_quality_decode(&quality, frame) == CAN_CHECK_OK && quality.node == bench->room.board[i].node) {
             voice->qualities++;
             voice->quality = quality;
@@ -184,8 +187,8 @@ bool room_bench_is_safe_picture(room_bench_t *bench, int board, const char *reas
 
 const char *room_bench_safe_reason(room_bench_t *bench, int board)
 {
-    static const char *const reasons[] = {"bus off", "no video yet", "no pose yet", "no pose", "no video",
-                                          "this pose can't be shown here"};
+    static const char *const reasons[] = {"bus off", "no video yet", "no pose yet",
+                                          "no pose", "no video",     "this pose can't be shown here"};
     for (size_t i = 0; i < sizeof reasons / sizeof *reasons; i++)
         if (room_bench_is_safe_picture(bench, board, reasons[i]))
             return reasons[i];

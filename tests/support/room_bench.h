@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "firmware/can_protocol.h"
+#include "firmware/can_update.h"
 #include "sim/run/sim_world.h"
 
 enum { ROOM_BENCH_HZ = 60, ROOM_BENCH_BOARDS = 2, ROOM_BENCH_INSTALL_US = 2000000, ROOM_BENCH_REBOOT_US = 3000000 };
@@ -20,6 +21,7 @@ typedef struct {
     can_status_t status;
     can_stage_t stage[STAGES];
     can_quality_t quality;
+    can_update_t update;
 } room_bench_voice_t;
 
 typedef struct {
