@@ -142,7 +142,7 @@ plug() {
     start usb 'chrt -f 60 /run/usb_camera /dev/gadget'
     vm_run 'try=0; while [ $((try += 1)) -le 50 ]; do
             grep -lxs "UVC Camera.*" /sys/class/video4linux/*/name && exit; sleep 0.1; done; exit 1'
-    ok "the board sees a USB camera" $?
+    ok $? "the board sees a USB camera"
 }
 
 test_usb_camera() {
@@ -155,10 +155,10 @@ test_usb_camera() {
     mark
     comes running
     vm_screenshot "$VM/corrected.ppm"
-    [ "$(wall safe before kept)" = other ]
-    ok "the wall has the USB camera's picture" $?
+    [ "$(wall no_video before kept)" = other ]
+    ok $? "the wall has the USB camera's picture"
     end usb >/dev/null
-    is fault fast safe
+    is fault fast no_video
     plug >/dev/null
     is_well $camera_fault
     end firmware >/dev/null
