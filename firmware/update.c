@@ -60,8 +60,8 @@ static update_refusal_t promise(projector_t *p, const command_t *command, int64_
     const bool same = u->switch_bus_us == command->bus_time_us && strcmp(u->version, command->text) == 0;
     if (u->plan != UPDATE_NO_PLAN && same)
         return UPDATE_DONE;
-    if (busy(u))
-        return UPDATE_BUSY;
+    if (busy(u) || u->plan == UPDATE_CONFIRMED)
+        return UPDATE_BUSY; /* the others will not wait for this board */
     if (!can_switch(u, command->text))
         return UPDATE_NOT_THERE;
     if (!bus_master_knows(&p->time, now_us))

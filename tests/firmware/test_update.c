@@ -91,6 +91,7 @@ static void test_switch_that_is_cancelled(void **state)
     ask_update(COMMAND_UPDATE_SWITCH, at_us, "0.6", UPDATE_DONE);
     ask_update(COMMAND_UPDATE_CONFIRM, at_us, "", UPDATE_DONE);
     ask_update(COMMAND_UPDATE_SWITCH, at_us, "0.6", UPDATE_DONE); /* again: stays confirmed */
+    ask_update(COMMAND_UPDATE_SWITCH, at_us + 5000000, "0.6", UPDATE_BUSY);
     assert_int_equal(status().plan, UPDATE_CONFIRMED);
     ask_update(COMMAND_UPDATE_CANCEL, 0, "", UPDATE_DONE);
     ask_update(COMMAND_UPDATE_CANCEL, 0, "", UPDATE_DONE);
