@@ -15,9 +15,6 @@ void room_update_init(room_update_t *u, const room_update_settings_t *settings, 
     }
 }
 
-/* --- talks ----------------------------------------------------------------------------------------------------------
- */
-
 /* Tell those that are asked something; the answers are judged in the step. */
 static void tell(room_update_t *u, room_update_step_t step, command_update_t what)
 {
@@ -28,9 +25,9 @@ static void tell(room_update_t *u, room_update_step_t step, command_update_t wha
     u->step = step;
     u->talks = 0;
     for (int i = 0; i < u->boards; i++) {
-        u->board[i].answered = false;
         if (!u->board[i].asked)
             continue;
+        u->board[i].answered = false;
         u->talk[u->talks] = (board_talk_t){.node = u->board[i].node, .request = request, .auth = u->settings.auth};
         u->of_board[u->talks++] = i;
     }
@@ -78,9 +75,6 @@ static void take_answers(room_update_t *u)
     }
 }
 
-/* --- switch ---------------------------------------------------------------------------------------------------------
- */
-
 static void watch(room_update_t *u, int64_t next_us)
 {
     u->step = ROOM_UPDATE_WATCH;
@@ -115,9 +109,6 @@ static void begin_switch(room_update_t *u, int64_t now_us)
     }
 }
 
-/* --- one after the other --------------------------------------------------------------------------------------------
- */
-
 /* Ask those again that are silent, when nothing else is in the way. @return false when something is, or none is silent.
  */
 static bool ask_silent_again(room_update_t *u, command_update_t what)
@@ -149,6 +140,22 @@ static void undo(room_update_t *u)
     for (int i = 0; i < u->boards; i++)
         u->board[i].asked = u->board[i].switches;
     tell(u, ROOM_UPDATE_UNDO, COMMAND_UPDATE_CANCEL);
+}
+
+/* Until the moment: who has not answered may not have heard it. */
+static void undo_again(room_update_t *u, int64_t now_us)
+{
+    int unheard = 0;
+    for (int i = 0; i < u->boards; i++) {
+        u->board[i].asked = u->board[i].asked && !u->board[i].answered;
+        unheard += u->board[i].asked;
+    }
+    if (unheard > 0 && now_us < u->switch_us) {
+        tell(u, ROOM_UPDATE_UNDO, COMMAND_UPDATE_CANCEL);
+        return;
+    }
+    u->step = ROOM_UPDATE_LOOK_AFTER;
+    u->next_us = u->switch_us + ROOM_UPDATE_ROUND_US;
 }
 
 static void judge_look(room_update_t *u, int64_t now_us)
@@ -206,8 +213,7 @@ static void judge(room_update_t *u, int64_t now_us)
             undo(u);
         break;
     case ROOM_UPDATE_UNDO:
-        u->step = ROOM_UPDATE_LOOK_AFTER;
-        u->next_us = u->switch_us + ROOM_UPDATE_ROUND_US;
+        undo_again(u, now_us);
         break;
     case ROOM_UPDATE_LOOK_AFTER:
         room_update_judge_cancellation(u, now_us);

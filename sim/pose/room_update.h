@@ -84,8 +84,8 @@ typedef struct {
     int missed;      /**< looks in a row at which it did not do as expected */
     bool switches;   /**< it has to switch; others run the version already */
     bool told;       /**< that the moment holds; maybe it has heard it */
-    bool asked;      /**< in the newest step, */
-    bool answered;   /**< and it has answered */
+    bool asked;      /**< by the newest request */
+    bool answered;   /**< it has answered the newest request to it */
 } room_update_board_t;
 
 typedef enum {

@@ -1,34 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests of the operator's side of a room's update, with made-up boards.
+// Tests of a room's switch, with made-up boards.
 #include "tests/sim/pose/made_up_boards.h"
-
-static void test_status(void **state)
-{
-    (void)state;
-    board[1].status.state = CAN_UPDATE_INSTALLING;
-    board[1].status.progress = 37;
-    board[2].status.trial = true;
-    begin(ROOM_UPDATE_STATUS, NULL);
-    run_to(ROOM_UPDATE_DONE);
-    check_trouble(0, ROOM_BOARD_WELL, "runs 1, 2 waits");
-    check_trouble(1, ROOM_BOARD_WELL, "installing 37 %");
-    check_trouble(2, ROOM_BOARD_WELL, "runs 1 on trial");
-    assert_int_equal(told(COMMAND_UPDATE_STATUS), BOARDS);
-}
-
-static void test_status_of_boards_in_trouble(void **state)
-{
-    (void)state;
-    board[0].silent = true;
-    board[1].status.state = CAN_UPDATE_NO_AGENT;
-    board[2].status.state = CAN_UPDATE_FAILED;
-    strcpy(board[2].status.message, "no space");
-    begin(ROOM_UPDATE_STATUS, NULL);
-    run_to(ROOM_UPDATE_REFUSED);
-    check_trouble(0, ROOM_BOARD_SILENT, "is silent; power");
-    check_trouble(1, ROOM_BOARD_NO_AGENT, "no update agent");
-    check_trouble(2, ROOM_BOARD_WELL, "failed: no space");
-}
 
 static void test_switch(void **state)
 {
@@ -161,6 +133,25 @@ static void test_board_that_switches_alone_is_told(void **state)
     assert_string_equal(update.board[2].status.running, "1");
 }
 
+/* A cancellation that is lost is said again until the moment. */
+static void test_cancellation_is_repeated(void **state)
+{
+    (void)state;
+    begin(ROOM_UPDATE_SWITCH, NULL);
+    while (told(COMMAND_UPDATE_CONFIRM) == 0)
+        turn();
+    board[0].silent = true;
+    room_update_stop(&update, now_us);
+    const int64_t back_us = now_us + 3 * ROOM_UPDATE_TALK_US / 2;
+    while (now_us < back_us)
+        turn();
+    assert_int_equal(board[0].told[COMMAND_UPDATE_CANCEL], 0);
+    board[0].silent = false;
+    run_to(ROOM_UPDATE_CANCELLED);
+    assert_int_equal(board[0].told[COMMAND_UPDATE_CANCEL], 1);
+    assert_int_equal(board[1].told[COMMAND_UPDATE_CANCEL], 1);
+}
+
 /* And nobody knows when it is never heard again. */
 static void test_board_that_is_not_heard_again_is_told(void **state)
 {
@@ -207,64 +198,9 @@ static void test_stop_cancels(void **state)
     assert_int_equal(update.result, ROOM_UPDATE_CANCELLED);
 }
 
-static void test_cancel(void **state)
-{
-    (void)state;
-    begin(ROOM_UPDATE_CANCEL, NULL);
-    run_to(ROOM_UPDATE_DONE);
-    assert_int_equal(told(COMMAND_UPDATE_CANCEL), BOARDS);
-}
-
-static void test_install_that_a_board_refuses(void **state)
-{
-    (void)state;
-    board[0].result = COMMAND_IMPOSSIBLE;
-    board[0].refusal = UPDATE_BUSY;
-    begin(ROOM_UPDATE_INSTALL, NULL);
-    run_to(ROOM_UPDATE_FAILED);
-    check_trouble(0, ROOM_BOARD_REFUSES, "is installing or switching");
-    assert_string_equal(board[1].newest.text, "/b");
-}
-
-static void test_install_of_different_versions(void **state)
-{
-    (void)state;
-    strcpy(board[2].status.waiting, "3");
-    begin(ROOM_UPDATE_INSTALL, NULL);
-    run_to(ROOM_UPDATE_FAILED);
-    check_trouble(2, ROOM_BOARD_OTHER, "3 waits");
-}
-
-/* An agent that lost the request, and a board that went away: not for ever. */
-static void test_install_that_does_not_go_on(void **state)
-{
-    (void)state;
-    board[0].status.state = CAN_UPDATE_IDLE;
-    board[1].silent = true;
-    board[1].silent_from = COMMAND_UPDATE_INSTALL;
-    begin(ROOM_UPDATE_INSTALL, NULL);
-    run_to(ROOM_UPDATE_FAILED);
-    board[1].silent = false;
-    begin(ROOM_UPDATE_INSTALL, NULL);
-    run_to(ROOM_UPDATE_FAILED);
-    check_trouble(0, ROOM_BOARD_OTHER, "idle");
-    check_trouble(1, ROOM_BOARD_WELL, "2 waits");
-}
-
-static void test_every_refusal_has_its_words(void **state)
-{
-    (void)state;
-    for (int i = 0; i <= UPDATE_NOT_TOLD; i++)
-        for (int k = 0; k < i; k++)
-            assert_string_not_equal(room_update_refusal((uint8_t)i), room_update_refusal((uint8_t)k));
-    assert_non_null(strstr(room_update_refusal(200), "does not know"));
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(test_status, open_room),
-        cmocka_unit_test_setup(test_status_of_boards_in_trouble, open_room),
         cmocka_unit_test_setup(test_switch, open_room),
         cmocka_unit_test_setup(test_promise_names_moment_and_version, open_room),
         cmocka_unit_test_setup(test_switch_is_refused_when_a_board_has_another_version, open_room),
@@ -275,14 +211,10 @@ int main(void)
         cmocka_unit_test_setup(test_refusal_cancels_the_others, open_room),
         cmocka_unit_test_setup(test_silence_cancels_the_others, open_room),
         cmocka_unit_test_setup(test_board_that_switches_alone_is_told, open_room),
+        cmocka_unit_test_setup(test_cancellation_is_repeated, open_room),
         cmocka_unit_test_setup(test_board_that_is_not_heard_again_is_told, open_room),
         cmocka_unit_test_setup(test_only_boards_of_another_version_go_back, open_room),
         cmocka_unit_test_setup(test_stop_cancels, open_room),
-        cmocka_unit_test_setup(test_cancel, open_room),
-        cmocka_unit_test_setup(test_install_that_a_board_refuses, open_room),
-        cmocka_unit_test_setup(test_install_of_different_versions, open_room),
-        cmocka_unit_test_setup(test_install_that_does_not_go_on, open_room),
-        cmocka_unit_test_setup(test_every_refusal_has_its_words, open_room),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
