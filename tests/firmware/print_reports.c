@@ -175,7 +175,7 @@ static void print_heartbeats(void)
     for (int i = 0; i < FAULTS; i++) {
         hal_can_frame_t frame;
         const can_heartbeat_t heartbeat = {.node = 1,
-                                           .counter = (uint8_t)(6 + i),
+                                           .counter = (uint8_t)((6 + i) % CAN_E2E_P01_COUNTERS),
                                            .state = (can_board_state_t)(i % CAN_BOARD_STATES),
                                            .fault_flags = FAULT[i].flag,
                                            .frame_number = 43210,
@@ -184,7 +184,7 @@ static void print_heartbeats(void)
         print_frame("Heartbeat", &frame, CAN_HEARTBEAT_PERIOD_MS);
         printf("signal HeartbeatCounter %d\nsignal HeartbeatState %d\nsignal HeartbeatFrameNumber 43210\n"
                "signal HeartbeatUptime 54321\nsignal HeartbeatFaultReserved 0\n",
-               6 + i, i % CAN_BOARD_STATES);
+               (6 + i) % CAN_E2E_P01_COUNTERS, i % CAN_BOARD_STATES);
         for (int k = 0; k < FAULTS; k++)
             printf("signal %s %d\n", FAULT[k].signal, k == i ? 1 : 0);
     }

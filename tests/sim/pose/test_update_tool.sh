@@ -39,7 +39,7 @@ test_update() {
     says "all 2 boards have 0.6: --switch starts them in it"
     grep -q ' s  left: runs 0.5, installing [1-9]0 %$' "$scratch/stderr"
     check "its progress is told" $?
-    "$build/wallwarp-pose" monitor --bus "$bus" --seconds 1.5 >"$scratch/stdout"
+    "$build/wallwarp-pose" monitor --bus "$bus" --seconds 4 >"$scratch/stdout"
     grep -q '^     2  ready  *100%  A  ' "$scratch/stdout"
     check "monitor shows that the bundle waits" $?
     # On a busy machine boards know bus time late; a switch that is refused has changed nothing.
