@@ -61,5 +61,5 @@ void notice_step(projector_t *p, const notice_t *notice)
         telemetry_send_life(p, now_us);
     event_watch_step(p, now_us);
     projector_tell_life(p, notice->reason, healthy, now_us);
-    update_step(p, now_us); /* in state fault no version is marked good */
+    update_step(p, now_us); /* in state fault no version is marked good, and the bus not looked at, which may be NULL */
 }

@@ -21,7 +21,7 @@ configure() {
 # begin [OPTION...]: the firmware, and heartbeats are heard on the other end of its wire.
 begin() {
     heartbeats can3
-    start firmware "/tree/$build/wallwarp --config /share/wallwarp.yaml $*"
+    start firmware "/run/wallwarp --config /share/wallwarp.yaml $*"
 }
 
 # says REASON: it is on stderr, in a line of its own.
@@ -121,6 +121,8 @@ test_other_bit_rate() {
 
 vm_use || exit 1
 vm_run 'for can in can2 can3; do ip link set $can up txqueuelen 64 type can bitrate 500000 dbitrate 2000000 fd on restart-ms 100; done'
+vm_run "cp /tree/$build/wallwarp /run/"
+vm_in_memory /run/wallwarp
 tests=${*:3}
 for test in ${tests:-broken_room missing_configuration missing_camera other_bit_rate}; do
     "test_$test"
