@@ -323,7 +323,8 @@ virtual-programs: programs $(VIRTUAL_PROGRAMS) $(OTHER_BOARD) $(HEAP_COUNTER) bu
 
 # Files in them have the time of the newest commit, so that the same tree gives the same bytes.
 PARTS       := $(BUILD)/image
-IMAGE_EPOCH  = SOURCE_DATE_EPOCH=$${SOURCE_DATE_EPOCH-$$(git log -1 --format=%ct)}
+EPOCH       := echo $${SOURCE_DATE_EPOCH-$$(git log -1 --format=%ct)}
+IMAGE_EPOCH  = SOURCE_DATE_EPOCH=$$($(EPOCH))
 IMAGE_FILES := $(shell find board/image board/service board/$(BOARD) board/initramfs.sh -type f)
 
 # What bundles are signed with, and what boards check them with. Your own: make signing-key DIR=...
@@ -334,22 +335,33 @@ CA              := $(DEVELOPMENT_KEY)/ca.pem
 DIR             :=
 
 .PHONY: image
-image: setup-image ## Make the image of a board's card: make BOARD=rpi4 image
-	$(Q)$(MAKE) --no-print-directory programs $(BUILD)/wallwarp-$(BOARD).img
+image: setup-image ## Make the image of a board's card, packed for make flash: make BOARD=rpi4 image
+	$(Q)$(MAKE) --no-print-directory programs $(BUILD)/wallwarp-$(BOARD).img.xz $(BUILD)/wallwarp-$(BOARD).spdx
 build/image.made: board/image/debian.sh board/debian.sh
 	$(if $(V),,@echo "  DEBIAN build/image")
 	$(Q)board/image/debian.sh build/image
 	$(Q)touch $@
-$(PARTS)/root.squashfs: build/image.made $(IMAGE_FILES) $(PROGRAMS:%=$(BUILD)/%) $(PARTS)/ca.pem \
+$(PARTS)/boot.made: build/image.made $(IMAGE_FILES)
+	$(if $(V),,@echo "  BOOT  $(PARTS)/boot")
+	$(Q)board/image/boot.sh $(BOARD) build/image $(PARTS)
+	$(Q)touch $@
+$(PARTS)/root.squashfs: build/image.made $(PARTS)/boot.made $(IMAGE_FILES) $(PROGRAMS:%=$(BUILD)/%) $(PARTS)/ca.pem \
     $(PARTS)/version
 	$(if $(V),,@echo "  ROOT  $@")
 	$(Q)$(IMAGE_EPOCH) board/image/root.sh $(BOARD) build/image $(PARTS)/ca.pem "$$(cat $(PARTS)/version)" $(PARTS)
-$(PARTS)/kernel.vfat: build/image.made $(IMAGE_FILES)
+$(PARTS)/kernel.vfat: build/image.made $(PARTS)/boot.made $(IMAGE_FILES) build/info/$(BOARD)
 	$(if $(V),,@echo "  SLOT  $@")
 	$(Q)$(IMAGE_EPOCH) board/image/slot.sh $(BOARD) build/image $(PARTS)
 $(BUILD)/wallwarp-$(BOARD).img: $(PARTS)/root.squashfs $(PARTS)/kernel.vfat
 	$(if $(V),,@echo "  IMAGE $@")
 	$(Q)$(IMAGE_EPOCH) board/image/image.sh $(BOARD) $(PARTS) $@
+$(BUILD)/wallwarp-$(BOARD).img.xz: $(BUILD)/wallwarp-$(BOARD).img
+	$(if $(V),,@echo "  XZ    $@")
+	$(Q)board/image/pack.sh $<
+$(BUILD)/wallwarp-$(BOARD).spdx: build/image.made board/image/licences.awk
+	$(if $(V),,@echo "  SPDX  $@")
+	$(Q)awk -v name=wallwarp-$(BOARD) -v created="$$(date -u -d "@$$($(EPOCH))" +%Y-%m-%dT%H:%M:%SZ)" -v root=build/image/root \
+	    -f board/image/licences.awk build/image/packages >$@
 # Another certificate is another image, whichever file is newer.
 $(PARTS)/ca.pem: $(CA) FORCE
 	@mkdir -p $(@D)

@@ -13,6 +13,7 @@ if [ "${1-}" = --hook ]; then
     version=$(APT_CONFIG=$MMDEBSTRAP_APT_CONFIG apt-cache depends linux-image-arm64:arm64 | sed -n 's/.*Depends: linux-image-//p')
     APT_CONFIG=$MMDEBSTRAP_APT_CONFIG apt-get download -q "linux-image-$version:arm64"
     dpkg-deb -x linux-image-*.deb kernel
+    cp -r kernel/usr/share/doc/. "$3/usr/share/doc/"
     depmod -b kernel "$version"
     # shellcheck disable=SC2016 # the ${} are dpkg-deb's
     for file in linux-image-*.deb "$3"/var/cache/apt/archives/*.deb; do

@@ -15,8 +15,18 @@ card=$out/card
 rm -rf "$card"
 mkdir -p "$card"
 "$here/boot_script.sh" "$card/boot.scr"
-cp "board/$board/wallwarp.yaml" "$card/"
-[ ! -e "board/$board/room.yaml" ] || cp "board/$board/room.yaml" "$card/"
+for file in "$out"/boot/*; do
+    case $file in
+    */flash.bin | */board.dtb | */\*) ;; # not of this partition
+    *) cp "$file" "$card/" ;;
+    esac
+done
+# A board's own, or that of hand installs with the room file where `make flash` puts it.
+if [ -e "board/$board/wallwarp.yaml" ]; then
+    cp "board/$board/"{wallwarp,room}.yaml "$card/"
+else
+    sed 's|^room:.*|room: /data/room.yaml|' board/service/wallwarp.yaml >"$card/wallwarp.yaml"
+fi
 fat_image "$out/card.vfat" 64 WALLWARP "$card"
 rm -f "$out/data.ext4"
 truncate -s 64M "$out/data.ext4"
@@ -51,3 +61,5 @@ put root-a "$out/root.squashfs"
 put kernel-b "$out/kernel.vfat"
 put root-b "$out/root.squashfs"
 put data "$out/data.ext4"
+# Where the chip's ROM looks for it.
+[ ! -e "$out/boot/flash.bin" ] || dd if="$out/boot/flash.bin" of="$image" bs=1K seek=32 conv=notrunc status=none

@@ -30,6 +30,7 @@ device_of() {
 }
 
 label=
+# shellcheck disable=SC2013 # words are what it is made of
 for word in $(busybox cat /proc/cmdline); do
     case $word in
     root=PARTLABEL=*) label=${word#root=PARTLABEL=} ;;
@@ -45,7 +46,8 @@ until root=$(device_of "$label"); do
 done
 busybox mount -t squashfs -o ro "$root" /root || fail "$root: cannot be mounted, expected the squashfs of a slot"
 
-card=$(device_of card) && busybox mount -t vfat -o ro,nosuid,nodev,noexec,umask=022 "$card" /root/card ||
+card=$(device_of card)
+busybox mount -t vfat -o ro,nosuid,nodev,noexec,umask=022 "$card" /root/card ||
     say "partition \"card\" cannot be mounted: put the card into a PC and repair it, or flash it anew"
 busybox mount -t tmpfs -o nosuid,nodev,mode=1777,size=64m tmp /root/tmp
 busybox mount -t tmpfs -o nosuid,nodev,mode=755,size=64m var /root/var

@@ -14,7 +14,8 @@ ca=$3
 update_version=$4
 out=$5
 root=$out/root
-version=$(basename "$debian"/kernel/lib/modules/*)
+kernel=$out/kernel_tree
+version=$(basename "$kernel"/lib/modules/*)
 
 copy_programs() {
     rm -rf "$root"
@@ -31,10 +32,10 @@ copy_programs() {
 
 # keep_only FOLDER NAME...: what else is in this folder of Debian's costs a board time at each start.
 keep_only() {
-    local folder=$root/usr/lib/$1 name
+    local folder=$root/usr/lib/$1 file
     shift
-    for name in $(ls "$folder"); do
-        [[ " $* " == *" $name "* ]] || rm -r "${folder:?}/$name"
+    for file in "$folder"/*; do
+        [ ! -e "$file" ] && [ ! -L "$file" ] || [[ " $* " == *" ${file##*/} "* ]] || rm -r "$file"
     done
 }
 
@@ -52,14 +53,20 @@ trim_start() {
     done
 }
 
+# Those of Debian's kernel that the board needs, or all that a user has chosen.
 copy_modules() {
     local file
-    grep -hv '^ *#' "$here/modules" "board/$board/modules" | while read -r module _; do
-        modprobe -d "$debian/kernel" -S "$version" --show-depends "$module"
+    mkdir -p "$root/usr/lib/modules"
+    if [ ! -e "board/$board/modules" ]; then
+        cp -r "$kernel/lib/modules/$version" "$root/usr/lib/modules/"
+        return
+    fi
+    grep -hv '^ *#' "$here/modules" "board/$board/modules" | while read -r module; do
+        modprobe -d "$kernel" -S "$version" --show-depends "$module"
     done | awk '$1 == "insmod" && !seen[$2]++ { print $2 }' | while read -r file; do
         install -D -m 644 "$file" "$root/usr/lib/modules/${file#*/lib/modules/}"
     done
-    cp "$debian/kernel/lib/modules/$version"/modules.{builtin,builtin.modinfo,order} "$root/usr/lib/modules/$version/"
+    cp "$kernel/lib/modules/$version"/modules.{builtin,builtin.modinfo,order} "$root/usr/lib/modules/$version/"
     depmod -b "$root/usr" "$version"
 }
 

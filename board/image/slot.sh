@@ -11,10 +11,18 @@ debian=$2
 out=$3
 . "$here/fat.sh"
 files=$out/kernel
+kernel=$out/kernel_tree
+
 rm -rf "$files"
 mkdir -p "$files"
-cp "$debian"/kernel/boot/vmlinuz-* "$files/vmlinuz"
-mapfile -t modules < <(grep -v '^#' "board/$board/modules_early")
-board/initramfs.sh "$debian/root/bin/busybox" "$here/init.sh" "$debian/kernel" "$files/initrd" "${modules[@]}"
-echo "$(cat "$here/cmdline") $(grep -v '^#' "board/$board/cmdline")" >"$files/cmdline"
+cp "$kernel"/boot/vmlinuz-* "$files/vmlinuz"
+modules=()
+[ ! -e "board/$board/modules_early" ] || mapfile -t modules < <(grep -v '^#' "board/$board/modules_early")
+board/initramfs.sh "$debian/root/bin/busybox" "$here/init.sh" "$kernel" "$files/initrd" "${modules[@]}"
+# Which cores are the pictures' own is told by the board's table.
+cores=$("build/info/$board" | grep '^isolcpus=')
+own=
+[ ! -e "board/$board/cmdline" ] || own=$(cat "board/$board/cmdline")
+echo "$(cat "$here/cmdline") $cores $own" >"$files/cmdline"
+[ ! -e "$out/boot/board.dtb" ] || cp "$out/boot/board.dtb" "$files/"
 fat_image "$out/kernel.vfat" 64 KERNEL "$files"

@@ -14,4 +14,9 @@ const board_info_t board_info = {
             {BOARD_NO_PIN, HAL_GPIO_LAMP, NULL, "gpio-sim"},
             {.to = NULL},
         },
+    .step =
+        {
+            {"command line of the kernel, in an image",
+             "isolcpus=domain,managed_irq,1 rcu_nocbs=1 irqaffinity=0 consoleblank=0\n"},
+        },
 };
