@@ -74,7 +74,8 @@ copy_firmware() {
     local program
     for program in wallwarp wallwarp-pose; do
         install -D -m 755 "build/$board/$program" "$root/usr/local/bin/$program"
-        aarch64-linux-gnu-strip "$root/usr/local/bin/$program"
+        # The number of a build tells of the folder that it was made in.
+        aarch64-linux-gnu-strip -R .note.gnu.build-id "$root/usr/local/bin/$program"
     done
     install -D -m 644 -t "$root/etc/udev/rules.d" board/service/60-wallwarp.rules
     install -D -m 644 -t "$root/etc/systemd/network" board/service/80-wallwarp-can.network
