@@ -245,7 +245,9 @@ stick() {
     version=$(rauc info --output-format=shell "$bundle" 2>/dev/null | sed -n "s/^RAUC_MF_VERSION='\(.*\)'$/\1/p")
     if [ -n "$version" ] && { [ "$version" = "$running" ] || [ "$version" = "$(other_version)" ]; }; then
         echo "update: ${bundle##*/} on the stick is version $version, which is here already" >&2
-    elif may_install; then
+    elif [ "$trial" = 1 ]; then
+        echo "update: ${bundle##*/} on the stick has to wait, version $running is on trial" >&2
+    else
         install "$bundle" "${bundle##*/}"
     fi
     umount "$own/stick"

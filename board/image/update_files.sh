@@ -15,6 +15,7 @@ sed "s/@BOARD@/$1/" "$here/system.conf" >"$root/etc/rauc/system.conf"
 install -d "$root/usr/lib/wallwarp"
 echo "$4" >"$root/usr/lib/wallwarp/version"
 install -D -m 644 -t "$root/etc/systemd/system" "$service"/wallwarp-*.path "$service"/wallwarp-*.service "$service"/wallwarp-*.timer
+install -D -m 644 "$service/rauc-modules.conf" "$root/etc/systemd/system/rauc.service.d/modules.conf"
 install -D -t "$root/etc/systemd/system-generators" "$service/wallwarp-trial-generator"
 install -D -m 644 -t "$root/etc/udev/rules.d" "$service/65-wallwarp-stick.rules"
 install -D -m 644 -t "$root/usr/lib/tmpfiles.d" "$service/wallwarp-update.conf"

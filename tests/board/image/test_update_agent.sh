@@ -214,6 +214,13 @@ rm -f "$folder/installs"
 agent stick "$folder/stick"
 never "a stick with what runs" installs
 
+board B "BOOT_ORDER=B A" BOOT_A_LEFT=9 BOOT_B_LEFT=2 "BOOT_UPDATE=trial B"
+agent start
+rm -f "$folder/installs"
+agent stick "$folder/stick"
+never "a stick on trial" installs
+says "a stick on trial" state=idle
+
 board A "${settled[@]}"
 for line in "" install "install  " "switch now" "install ftp://host/x" "install x" "$(head -c 9000 /dev/zero | tr '\0' x)" $'goo\x01d'; do
     rm -f "$state"
