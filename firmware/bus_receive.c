@@ -37,9 +37,8 @@ static void take(const bus_receivers_t *to, const hal_can_frame_t *frame)
         hand_on(to, &believed[i]);
 }
 
-void bus_receive(const bus_receivers_t *to, hal_can_t *can)
+static void take_waiting(const bus_receivers_t *to, hal_can_t *can)
 {
-    leave_bus_off(to, can);
     for (int i = 0; i < BUS_RECEIVE_FRAMES; i++) {
         hal_can_frame_t frame;
         const hal_status_t status = hal_can_receive(can, &frame);
@@ -52,4 +51,11 @@ void bus_receive(const bus_receivers_t *to, hal_can_t *can)
         take(to, &frame);
     }
     to->faults->overrun++;
+}
+
+void bus_receive(const bus_receivers_t *to, hal_can_t *can)
+{
+    leave_bus_off(to, can);
+    take_waiting(to, can);
+    to->faults->lost = hal_can_lost(can); /* afterwards: some losses are known only by the frame after them */
 }

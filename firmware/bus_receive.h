@@ -25,7 +25,7 @@ typedef struct {
 /**
  * Take what the controller has received, oldest first, at most BUS_RECEIVE_FRAMES frames. Never blocks.
  *
- * A controller found bus-off is told to restart.
+ * A controller found bus-off is told to restart. Frames that it lost are counted.
  */
 void bus_receive(const bus_receivers_t *to, hal_can_t *can);
 

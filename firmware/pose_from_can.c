@@ -186,5 +186,5 @@ uint32_t can_faults_total(const can_faults_t *faults)
 {
     return faults->length + faults->crc + faults->counter_invalid + faults->counter_lost + faults->duplicate +
            faults->stale + faults->sender_restart + faults->incomplete_set + faults->bad_pose + faults->io +
-           faults->overrun + faults->bus_off + faults->auth_lost + can_faults_refused(faults);
+           faults->overrun + faults->lost + faults->bus_off + faults->auth_lost + can_faults_refused(faults);
 }

@@ -37,7 +37,8 @@ typedef struct {
         bad_pose; /**< unknown quality or origin, position beyond 1000 m, quaternion not within 1 % of unit length */
     uint32_t tracking_lost; /**< good frames in which the tracker says that it has lost the viewer */
     uint32_t io;            /**< failures of the CAN driver */
-    uint32_t overrun;       /**< calls that took BUS_RECEIVE_FRAMES: the controller may have dropped some */
+    uint32_t overrun;       /**< calls that took BUS_RECEIVE_FRAMES: the rest has to wait for the next call */
+    uint32_t lost;          /**< frames that there was no room for: hal_can_lost(), since the controller was opened */
     uint32_t auth_lost;     /**< with a key: messages whose code was lost, as the next one's counter shows */
     uint32_t auth_unsigned; /**< messages that came without a code: refused */
     uint32_t auth_forged;   /**< whose code is not of this key and session */

@@ -58,6 +58,16 @@ MUST_CHECK hal_status_t hal_can_receive(hal_can_t *can, hal_can_frame_t *frame);
  */
 MUST_CHECK hal_status_t hal_can_send(hal_can_t *can, const hal_can_frame_t *frame);
 
+/**
+ * Count the received frames that were lost, as the controller, its driver or the queue had no room for them.
+ *
+ * Frames lost on the wire are not among them. A loss may be counted only when hal_can_receive() has come to the frame
+ * after it, and one that the controller reports without a number counts as one frame.
+ *
+ * @return How many since the controller was opened, modulo 2^32. Never blocks.
+ */
+uint32_t hal_can_lost(const hal_can_t *can);
+
 /** @return The controller's fault confinement state. Never blocks. */
 hal_can_state_t hal_can_state(const hal_can_t *can);
 

@@ -33,7 +33,7 @@ struct hal_can {
     bool ask;     /* what the link is, as something was missed */
     bool emptied; /* no frame was waiting at the end of the last call */
     hal_can_state_t state;
-    uint32_t overruns;
+    uint32_t lost;
     struct canfd_frame own[OWN]; /* [n % OWN]: sent with own set, not heard yet unless can_id is CAN_ERR_FLAG */
     uint32_t own_count;
 };
@@ -94,7 +94,7 @@ static bool is_awaited(hal_can_t *can, const struct canfd_frame *raw)
 
 static void take_error(hal_can_t *can, const socketcan_error_t *error)
 {
-    can->overruns += error->overrun;
+    can->lost += error->overrun;
     if (!error->any_state)
         return;
     if (can->state == HAL_CAN_BUS_OFF && error->state != HAL_CAN_BUS_OFF)
@@ -108,7 +108,7 @@ static bool take_heard(hal_can_t *can, uint32_t dropped_before, hal_can_frame_t 
     const socketcan_heard_t *heard = &can->heard;
     const socketcan_error_t error = socketcan_frame_error(&heard->frame, heard->size);
     hal_can_frame_t found = {.own = heard->own};
-    can->overruns += heard->dropped - dropped_before;
+    can->lost += heard->dropped - dropped_before;
     can->ask = can->ask || heard->dropped != dropped_before; /* an error frame may have been among them */
     take_error(can, &error);
     if (!socketcan_frame_unpack(&found, &heard->frame, heard->size) || (heard->own && !is_awaited(can, &heard->frame)))
@@ -155,6 +155,11 @@ hal_status_t hal_can_send(hal_can_t *can, const hal_can_frame_t *frame)
     return HAL_OK;
 }
 
+uint32_t hal_can_lost(const hal_can_t *can)
+{
+    return can->lost;
+}
+
 hal_can_state_t hal_can_state(const hal_can_t *can)
 {
     return can->state;
@@ -166,11 +171,6 @@ hal_status_t hal_can_restart(hal_can_t *can)
         return HAL_OK;
     const int failure = socketcan_netlink_restart(&can->netlink, can->link.index);
     return failure == 0 || failure == EBUSY ? HAL_OK : HAL_IO;
-}
-
-uint32_t can_socketcan_overruns(const hal_can_t *can)
-{
-    return can->overruns;
 }
 
 /* Notices are heard of from before the question on, so that none is missed. */

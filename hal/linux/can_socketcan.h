@@ -6,6 +6,8 @@
 //
 // Time stamps are the controller's when it makes any (MCP2518FD), else the kernel's: see socketcan_stamp.h.
 //
+// Lost frames: those that the socket's queue dropped, and one for each overrun that an error frame tells of.
+//
 // Fault confinement state: from error frames, taken while receiving, and from what the kernel tells of the interface.
 // Leaving bus-off: with `restart-ms` the kernel does it after that time and hal_can_restart() has nothing to do;
 // without, hal_can_restart() asks for it, which only CAP_NET_ADMIN may. One of the two is asked for at open.
@@ -46,8 +48,5 @@ MUST_CHECK hal_status_t can_socketcan_open(hal_can_t **can, const can_socketcan_
 
 /** NULL is allowed. The interface stays up. */
 void can_socketcan_close(hal_can_t *can);
-
-/** @return How many received frames were dropped: as the queue was full, or in the controller. Wraps. */
-uint32_t can_socketcan_overruns(const hal_can_t *can);
 
 #endif

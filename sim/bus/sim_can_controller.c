@@ -180,6 +180,11 @@ hal_status_t hal_can_send(hal_can_t *can, const hal_can_frame_t *frame)
     return HAL_OK;
 }
 
+uint32_t hal_can_lost(const hal_can_t *can)
+{
+    return (uint32_t)can->stats.overruns;
+}
+
 hal_can_state_t hal_can_state(const hal_can_t *can)
 {
     if (can->bus_off)

@@ -21,11 +21,14 @@ struct hal_can {
     hal_can_state_t state;
     bool broken; /* receive fails */
     bool restart_refused;
-    int restarts; /* asked for */
+    int restarts;         /* asked for */
+    uint32_t lost, told;  /* frames: as it is; as it was at the newest call of receive */
+    hal_can_frame_t sent; /* the newest */
 };
 
 hal_status_t hal_can_receive(hal_can_t *can, hal_can_frame_t *frame)
 {
+    can->told = can->lost;
     if (can->broken)
         return HAL_IO;
     if (can->next == can->count) {
@@ -38,9 +41,13 @@ hal_status_t hal_can_receive(hal_can_t *can, hal_can_frame_t *frame)
 
 hal_status_t hal_can_send(hal_can_t *can, const hal_can_frame_t *frame)
 {
-    (void)can;
-    (void)frame;
-    return HAL_FULL;
+    can->sent = *frame;
+    return HAL_OK;
+}
+
+uint32_t hal_can_lost(const hal_can_t *can)
+{
+    return can->told;
 }
 
 hal_can_state_t hal_can_state(const hal_can_t *can)

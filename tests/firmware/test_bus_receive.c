@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests of the one place where a board reads its bus: every frame reaches whom it is for, and nobody else.
+#include "firmware/projector.h"
 #include "tests/firmware/pose_bench.h"
 
 enum { NODE = 3, PERIOD_US = 16667 };
@@ -116,12 +117,46 @@ static void test_nobody_else_needs_to_be_there(void **state)
     assert_int_equal(can_faults_total(&ears.bus.faults), 0);
 }
 
+/* @return What the next heartbeat says, after reading the bus twice: the same loss is told once. */
+static uint32_t flags_after_loss(projector_t *p, hal_can_t *can, uint32_t lost)
+{
+    can_heartbeat_t heartbeat;
+    can->lost = lost;
+    for (int i = 0; i < 2; i++) {
+        bus_receive(&(bus_receivers_t){.poses = &p->poses, .faults = &p->can_faults}, can);
+        assert_int_equal(p->can_faults.lost, lost);
+        assert_int_equal(can_faults_total(&p->can_faults), lost + p->can_faults.io);
+    }
+    p->telemetry.heartbeat_due_us = 0;
+    telemetry_send_life(p, 0);
+    assert_int_equal(can_heartbeat_decode(&heartbeat, &can->sent), CAN_CHECK_OK);
+    return heartbeat.fault_flags;
+}
+
+static void test_lost_frames_are_a_fault_of_the_bus(void **state)
+{
+    (void)state;
+    static projector_t projector;
+    static hal_can_t can;
+    projector.node = NODE;
+    projector.board.can = &can;
+    assert_int_equal(flags_after_loss(&projector, &can, 0), 0);
+    assert_int_equal(flags_after_loss(&projector, &can, 3), CAN_FAULT_BUS);
+    assert_int_equal(flags_after_loss(&projector, &can, 3), 0);
+    assert_int_equal(flags_after_loss(&projector, &can, UINT32_MAX), CAN_FAULT_BUS);
+    assert_int_equal(flags_after_loss(&projector, &can, 1), CAN_FAULT_BUS); /* 2 more */
+    assert_int_equal(flags_after_loss(&projector, &can, 1), 0);
+    can.broken = true;
+    flags_after_loss(&projector, &can, 2); /* counted all the same */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_everyone_hears_their_own),
         cmocka_unit_test(test_damage_is_counted_once),
         cmocka_unit_test(test_nobody_else_needs_to_be_there),
+        cmocka_unit_test(test_lost_frames_are_a_fault_of_the_bus),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

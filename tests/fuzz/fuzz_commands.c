@@ -36,6 +36,12 @@ hal_status_t hal_can_receive(hal_can_t *port, hal_can_frame_t *frame)
     return HAL_EMPTY;
 }
 
+uint32_t hal_can_lost(const hal_can_t *port)
+{
+    (void)port;
+    return 0;
+}
+
 hal_can_state_t hal_can_state(const hal_can_t *port)
 {
     (void)port;

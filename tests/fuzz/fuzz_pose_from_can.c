@@ -15,6 +15,7 @@ struct hal_can {
     hal_can_frame_t frame[QUEUE_FRAMES];
     int count, next;
     bool broken, bus_off, restart_refused, endless;
+    uint32_t lost;
 };
 
 hal_status_t hal_can_receive(hal_can_t *can, hal_can_frame_t *frame)
@@ -34,6 +35,11 @@ hal_status_t hal_can_send(hal_can_t *can, const hal_can_frame_t *frame)
     (void)can;
     (void)frame;
     return HAL_FULL;
+}
+
+uint32_t hal_can_lost(const hal_can_t *can)
+{
+    return can->lost;
 }
 
 hal_can_state_t hal_can_state(const hal_can_t *can)
@@ -82,6 +88,7 @@ static void receive(bench_t *bench, hal_can_t *can)
     bus_receive(&(bus_receivers_t){.poses = &bench->poses, .time = &bench->time, .faults = &bench->faults}, can);
     fuzz_check(bench->faults.overrun >= before.overrun && bench->faults.crc >= before.crc, "faults are counted up");
     fuzz_check(can->broken || can->endless || can->next == can->count, "everything received is taken");
+    fuzz_check(bench->faults.lost == can->lost, "lost frames are counted");
     check_newest(bench, viewer);
 }
 
@@ -144,6 +151,7 @@ static void one_turn(bench_t *bench, input_t *input)
     can.broken = kind == 0xF9;
     can.bus_off = kind == 0xFA || kind == 0xFD;
     can.restart_refused = kind == 0xFD;
+    can.lost = kind;
     can.endless = kind == 0xFE && can.count > 0;
     receive(bench, &can);
 }

@@ -202,6 +202,7 @@ static void the_queue_takes_whole_frames_or_none(void **state)
 static void received_frames_are_kept(void **state)
 {
     int64_t last_us = 0;
+    const uint32_t lost = hal_can_lost(controller(state, 1));
     for (int i = 0; i < KEPT; i++) {
         hal_can_frame_t frame = frame_of((uint32_t)i, 8);
         hal_status_t status = HAL_FULL;
@@ -224,6 +225,7 @@ static void received_frames_are_kept(void **state)
         seen[frame.id] = true;
     }
     assert_nothing_there(state, 1);
+    assert_int_equal(hal_can_lost(controller(state, 1)), lost);
 }
 
 static void a_good_bus_needs_no_restart(void **state)

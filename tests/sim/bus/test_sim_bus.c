@@ -106,6 +106,8 @@ static void test_queues_are_bounded(void **state)
     }
     assert_int_equal(hal_can_receive(b, &frame), HAL_EMPTY);
     assert_int_equal(sim_can_stats(b).overruns, 320 - 256);
+    assert_int_equal(hal_can_lost(b), 320 - 256);
+    assert_int_equal(hal_can_lost(a), 0);
     sim_bus_destroy(bus);
 }
 
