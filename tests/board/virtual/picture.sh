@@ -50,7 +50,15 @@ record_vimc_frame() {
 start_firmware() {
     sed "$1" $room >"$VM/share/room.yaml"
     shift
-    vm_run "/run/wallwarp /share/room.yaml --node 1 $* >/share/firmware 2>&1 & echo \$! >/share/pid"
+    vm_run "rm -f /share/pid /share/status
+        { /run/wallwarp /share/room.yaml --node 1 $* & echo \$! >/share/pid
+            wait \$!; echo \$? >/share/status; } >/share/firmware 2>&1 &
+        until [ -s /share/pid ]; do sleep 0.1; done"
+}
+
+# end_firmware: with SIGTERM. Its exit status is the firmware's.
+end_firmware() {
+    vm_run "kill \"\$(cat /share/pid)\"; until [ -s /share/status ]; do sleep 0.1; done; exit \"\$(cat /share/status)\""
 }
 
 # end PID_FILE: a program that was started.

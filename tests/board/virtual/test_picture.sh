@@ -49,8 +49,9 @@ test_libcamera() {
         ok $? "vimc's pattern $pattern, libcamera: $differences"
     done
     end sender
-    end pid
-    ok $? "libcamera: the firmware ends; it said: $(cat "$VM/share/firmware")"
+    end_firmware
+    ended=$?
+    ok "$ended" "libcamera: the firmware ends with status $ended; it said: $(cat "$VM/share/firmware")"
 }
 
 trap vm_stop EXIT
@@ -62,9 +63,9 @@ done
 for method in mean+cubic gauss+linear none+nearest; do
     start_firmware "s/method: .*/method: $method/" --can can0
     compare $method
-    end pid
+    end_firmware
     ended=$?
-    ok "$ended" "$method: the firmware ends; it said: $(cat "$VM/share/firmware")"
+    ok "$ended" "$method: the firmware ends with status $ended; it said: $(cat "$VM/share/firmware")"
 done
 test_libcamera
 ok_end

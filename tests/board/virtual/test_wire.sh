@@ -78,9 +78,9 @@ test_wire() {
     test_tool "$bus" "$kind" "$@"
     test_cansend "$bus" "$kind"
     test_requests "$bus" "$kind"
-    end pid
+    end_firmware
     ended=$?
-    ok "$ended" "$kind: the firmware ends; it said: $(cat "$VM/share/firmware")"
+    ok "$ended" "$kind: the firmware ends with status $ended; it said: $(cat "$VM/share/firmware")"
 }
 
 trap vm_stop EXIT
