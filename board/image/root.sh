@@ -104,5 +104,6 @@ copy_modules
 copy_firmware
 set_up
 rm -f "$out/root.squashfs"
-mksquashfs "$root" "$out/root.squashfs" -all-root -no-xattrs -noappend -comp zstd -Xcompression-level "${LEVEL-15}" \
-    -quiet -no-progress
+# One time for all: those of a tree's own files differ from clone to clone.
+env -u SOURCE_DATE_EPOCH mksquashfs "$root" "$out/root.squashfs" -all-root -no-xattrs -noappend -comp zstd \
+    -Xcompression-level "${LEVEL-15}" -mkfs-time "$SOURCE_DATE_EPOCH" -all-time "$SOURCE_DATE_EPOCH" -quiet -no-progress
