@@ -7,6 +7,7 @@
 #include "firmware/auth_key.h"
 #include "firmware/room.h"
 #include "sim/devices/sim_clock.h"
+#include "sim/options.h"
 #include "sim/pose/command_options.h"
 #include "sim/pose/commands.h"
 #include "sim/pose/pose_link.h"
@@ -98,10 +99,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         options->key = argument;
         return 0;
     case ARGP_KEY_ARG:
-        if (state->arg_num > 0)
-            argp_error(state, "one ROOM expected, found also '%s'", argument);
-        options->room = argument;
-        return 0;
+        return options_room(&options->room, argument, state);
     case ARGP_KEY_END:
         check_usage(state, options);
         return 0;
