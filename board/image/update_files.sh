@@ -18,4 +18,3 @@ install -D -m 644 -t "$root/etc/systemd/system" "$service"/wallwarp-*.path "$ser
 install -D -m 644 "$service/rauc-modules.conf" "$root/etc/systemd/system/rauc.service.d/modules.conf"
 install -D -t "$root/etc/systemd/system-generators" "$service/wallwarp-trial-generator"
 install -D -m 644 -t "$root/etc/udev/rules.d" "$service/65-wallwarp-stick.rules"
-install -D -m 644 -t "$root/usr/lib/tmpfiles.d" "$service/wallwarp-update.conf"
