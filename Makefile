@@ -370,6 +370,13 @@ $(PARTS)/version: FORCE
 	@mkdir -p $(@D)
 	@board/image/version.sh | cmp -s - $@ || board/image/version.sh >$@
 
+.PHONY: test-image
+test-image: setup-test setup-board setup-image ## Boot the image of the virtual board, update it, and cut its power CUTS=2 times; the last line says how many tests passed
+	$(Q)$(MAKE) --no-print-directory BOARD=qemu-virt image
+	$(Q)$(MAKE) --no-print-directory programs build/host/tests/board/picture_tool
+	$(Q)tests/run.sh build/test-image $(foreach t,$(wildcard tests/board/image/vm_*.sh),'$(t) build/qemu-virt') \
+	    'tests/board/image/on_used_card.sh build/qemu-virt/wallwarp-qemu-virt.img.xz'
+
 .PHONY: bundle signing-key FORCE
 bundle: setup-image ## Make a signed update: make BOARD=rpi4 SIGNING_KEY=signing.key SIGNING_CERT=signing.pem bundle
 	$(Q)$(MAKE) --no-print-directory programs $(BUILD)/wallwarp-$(BOARD).raucb

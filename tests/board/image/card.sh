@@ -23,7 +23,7 @@ card_insert() {
     mkdir -p "$VM/web" || return 1
     cp --sparse=always "$2" "$VM/card" && truncate -s +512M "$VM/card"
     local start
-    start=$(sfdisk -d "$VM/card" | sed -n 's/.*start= *\([0-9]*\),.*name="state".*/\1/p')
+    start=$(sfdisk -d "$VM/card" 2>/dev/null | sed -n 's/.*start= *\([0-9]*\),.*name="state".*/\1/p')
     printf '%s %#x 0x200\n' "$VM/card" $((start * 512)) "$VM/card" $((start * 512 + 0x80000)) >"$VM/fw_env.config"
 }
 
@@ -38,6 +38,10 @@ card_power() {
     card_jobs=0
     card_qemu "$@" </dev/null >"$VM/qemu" 2>&1 &
     echo $! >"$VM/pid"
+    # What is said before qemu has its pipes open is lost.
+    while vm_alive && [ ! -s "$VM/monitor.out" ]; do
+        sleep 0.1
+    done
     vm_qmp qmp_capabilities '{}' >/dev/null
 }
 
@@ -75,7 +79,7 @@ card_run() {
     card_jobs=$((card_jobs + 1))
     mark="@$card_jobs.$RANDOM"
     from=$(wc -c <"$VM/console")
-    echo "( $1 ) >/tmp/said 2>&1; s=\$?; sed 's/^/$mark: /' /tmp/said; echo; echo '$mark='\$s" 1<>"$VM/serial.in"
+    echo "( $1 ) >/tmp/said 2>&1; s=\$?; echo; sed 's/^/$mark: /' /tmp/said; echo; echo '$mark='\$s" 1<>"$VM/serial.in"
     until=$((SECONDS + seconds))
     while vm_alive && [ $SECONDS -le $until ]; do
         status=$(tail -c +$((from + 1)) "$VM/console" | tr -d '\r' | sed -n "s/^$mark=//p")
