@@ -25,7 +25,7 @@ static const struct {
     {"Stage", 0x441, 0x47F, 32, true, true},       {"Quality", 0x481, 0x4BF, 8, true, true},
     {"Time", 0x4C1, 0x4FF, 8, true, true},         {"Step", 0x501, 0x53F, 80, true, true},
     {"Latency", 0x541, 0x57F, 8, true, true},      {"Counts", 0x5C1, 0x5FF, 8, true, true},
-    {"Heartbeat", 0x701, 0x73F, 16, true, true},
+    {"Update", 0x681, 0x6BF, 8, true, true},       {"Heartbeat", 0x701, 0x73F, 16, true, true},
 };
 
 enum { MESSAGES = sizeof MESSAGE / sizeof MESSAGE[0] };
