@@ -154,13 +154,15 @@ find_stick() {
 # What comes over the network is nobody's until RAUC has checked its signature.
 fetch() {
     rm -f "$fetched"
-    said=$(wget -q -T 30 -O "$fetched" -- "$1" 2>&1) && bundle=$fetched && return 0
+    # Debian's wget of busybox has no time limit of its own.
+    said=$(timeout 900 wget -q -O "$fetched" -- "$1" 2>&1) && bundle=$fetched && return 0
+    said=${said##*wget: }
     free=$(free_mib)
     rm -f "$fetched"
     if [ "$free" -lt 1 ]; then
         tell failed 0 "the data partition is too full for $1: $(free_mib) MiB are free"
     else
-        tell failed 0 "can't fetch $1: ${said##*wget: }"
+        tell failed 0 "can't fetch $1: ${said:-not done in 15 minutes}"
     fi
     return 1
 }

@@ -134,7 +134,7 @@ ok $? "install: halfway: $(cat "$folder/state.halfway")"
 agent start
 says "start with a version that waits" state=ready waiting=2.0
 rm -f "$folder/installs"
-for try in "stranger *signature*" "expired *expired*" "other *wallwarp-rear*wallwarp-front*" "cut *Signature*exceeds*" \
+for try in "stranger *signature*" "expired *certificate has expired*" "other *wallwarp-rear*wallwarp-front*" "cut *Signature*exceeds*" \
     "none *No such file*"; do
     ask "install /${try%% *}"
     says "${try%% *} is refused" state=failed "message=refused: ${try#* }" waiting=2.0
