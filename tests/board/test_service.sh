@@ -47,7 +47,7 @@ for line in 'BitRate=500K' 'DataBitRate=2M' 'FDMode=yes' 'RestartSec='; do
 done
 # The update agent is in images only: see board/image/update_files.sh.
 for file in board/service/*; do
-    case $file in *README.md | *wallwarp-stick* | *wallwarp-trial* | *wallwarp-update*) continue ;; esac
+    case $file in *README.md | *wallwarp-stick* | *wallwarp-trial* | *wallwarp-update* | *rauc-*) continue ;; esac
     grep -q "install .*$(basename "$file")" board/service/README.md
     ok $? "the page does not install $file"
 done
