@@ -254,7 +254,9 @@ golden_check = tests/golden/check.sh $(call emulated,$(1))build/variants/$(1)/go
 kernel_check = $(call emulated,$(1))build/variants/$(1)/check_kernels
 # SIMDe is slow without optimisation.
 levels       = scalar $(if $(filter %-O3,$(1)),neon)
-SCRIPTS      := $(filter-out tests/board/virtual/%,$(wildcard tests/*/test_*.sh tests/*/*/test_*.sh))
+# These need what makes images, and are of test-image.
+IMAGE_TESTS  := $(addprefix tests/board/image/test_,boot_script.sh update_agent.sh)
+SCRIPTS      := $(filter-out tests/board/virtual/% $(IMAGE_TESTS),$(wildcard tests/*/test_*.sh tests/*/*/test_*.sh))
 RUN_TESTS     = $(foreach t,$(TESTS),'$(t)') $(foreach s,$(SCRIPTS),'$(s) $(BUILD)') \
                 $(foreach v,$(GOLDEN_VARIANTS),$(foreach l,$(call levels,$(v)),'$(call golden_check,$(v)) $(l)')) \
                 $(foreach v,$(KERNEL_VARIANTS),'$(call kernel_check,$(v))') \
@@ -374,7 +376,7 @@ $(PARTS)/version: FORCE
 test-image: setup-test setup-board setup-image ## Boot the image of the virtual board, update it, and cut its power CUTS=2 times; the last line says how many tests passed
 	$(Q)$(MAKE) --no-print-directory BOARD=qemu-virt image
 	$(Q)$(MAKE) --no-print-directory programs build/host/tests/board/picture_tool
-	$(Q)tests/run.sh build/test-image $(foreach t,$(wildcard tests/board/image/vm_*.sh),'$(t) build/qemu-virt') \
+	$(Q)tests/run.sh build/test-image $(foreach t,$(IMAGE_TESTS) $(wildcard tests/board/image/vm_*.sh),'$(t) build/qemu-virt') \
 	    'tests/board/image/on_used_card.sh build/qemu-virt/wallwarp-qemu-virt.img.xz'
 
 .PHONY: bundle signing-key FORCE
