@@ -64,7 +64,7 @@ test_log() {
     tell 1 log && head -n 1 "$scratch/stdout" | grep -q '^board 1:       0\.000 s  start     node 1$'
     check "the log begins with the start" $?
     sed -n 's/^board 1: *[0-9.]* s  //p' "$scratch/stdout" |
-        grep -v '^faults\|^bus time\|^method\|running\|holding\|safe' >"$scratch/log"
+        grep -v '^faults\|^bus time\|^update\|^method\|running\|holding\|safe' >"$scratch/log"
     cat >"$scratch/expected" <<END
 start     node 1
 command   freeze on: done
