@@ -9,7 +9,7 @@
 #include "sim/pose/pose_auth.h"
 #include "sim/pose/pose_link.h"
 
-/** Made by sync_send_begin(). */
+/** Made by sync_send_begin(), but for auth, which is its caller's. */
 typedef struct {
     int64_t due_us; /**< of the next pair, on sim_clock_monotonic_us() */
     uint8_t counter;

@@ -121,7 +121,7 @@ static void test_pairs_are_sent_when_due(void **state)
     wire_t wire = open_wire();
     hal_can_frame_t frame;
     char error[POSE_LINK_MESSAGE_LENGTH] = "";
-    sync_send_t sync = {.due_us = 0};
+    sync_send_t sync = {.auth = NULL};
     for (int n = 0; n < 32; n++) {
         const int64_t before_us = sim_clock_monotonic_us();
         assert_true(sync_send(&sync, &wire.link, error));
@@ -141,7 +141,7 @@ static void test_an_interface_tells_when_a_sync_was_out(void **state)
     (void)state;
     wire_t wire = open_wire();
     char error[POSE_LINK_MESSAGE_LENGTH] = "";
-    sync_send_t sync;
+    sync_send_t sync = {.auth = NULL};
     assert_true(sync_send_begin(&sync, &wire.link, error));
     assert_true(can.recv_own && can.filter.can_id == CAN_ID_SYNC && (can.filter.can_mask & 0x7FF) == 0x7FF);
     bool stamped = false;
@@ -178,7 +178,7 @@ static void test_a_sync_that_is_not_out_has_no_follow_up(void **state)
     (void)state;
     wire_t wire = open_wire();
     char error[POSE_LINK_MESSAGE_LENGTH] = "";
-    sync_send_t sync;
+    sync_send_t sync = {.auth = NULL};
     assert_true(sync_send_begin(&sync, &wire.link, error));
     assert_true(sync_send(&sync, &wire.link, error));
     hear_alone(&wire, &sync, 0); /* the bus is taken */
@@ -202,7 +202,7 @@ static void test_a_broken_link_is_told(void **state)
     (void)state;
     wire_t wire = open_wire();
     char error[POSE_LINK_MESSAGE_LENGTH] = "";
-    sync_send_t sync = {.due_us = 0};
+    sync_send_t sync = {.auth = NULL};
     close(wire.link.socket);
     assert_false(sync_send(&sync, &wire.link, error));
     assert_non_null(strstr(error, "wire"));
