@@ -264,7 +264,7 @@ RUN_TESTS     = $(foreach t,$(TESTS),'$(t)') $(foreach s,$(SCRIPTS),'$(s) $(BUIL
                 $(foreach t,$(call x86_checks,$(X86)) $(call x86_checks,$(X86_AVX2)),'$(t)')
 
 .PHONY: test run-tests
-test: setup-test ## Run every test; the last line says how many passed and failed
+test: setup-test ## Run every test but those on the virtual board; the last line says how many passed and failed
 	$(Q)$(MAKE) --no-print-directory programs
 	$(Q)$(MAKE) --no-print-directory golden run-tests
 run-tests: programs $(TESTS) $(HELPERS)
