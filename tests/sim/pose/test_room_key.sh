@@ -15,14 +15,18 @@ wrong=$scratch/wrong
 new_key "$key"
 new_key "$wrong"
 
+# boards_in_last_report STATE FLAGS: how many boards say that they are in this state, with these fault flags.
+boards_in_last_report() {
+    awk -v line="^ +[$boards]  $1 .* $2 " '/^ board  state / { n = 0 } $0 ~ line { n++ } END { print n + 0 }' \
+        "$scratch/stdout"
+}
+
 # boards_are STATE FLAGS NAME: both boards say that they are in this state, with these fault flags (a pattern), at last:
 # on a busy machine poses come late, and sessions too.
 boards_are() {
     tries=0
-    while [ $tries -lt 30 ]; do
-        pose_tool monitor --bus "$bus" --seconds 1.2
-        [ "$(tail -n 16 "$scratch/stdout" | grep -c "^     [$boards]  $1 .* $2 ")" -eq ${#boards} ] && break
-        tries=$((tries + 1))
+    until pose_tool monitor --bus "$bus" --seconds 1.2 && [ "$(boards_in_last_report "$1" "$2")" -eq ${#boards} ]; do
+        [ $((tries += 1)) -lt 30 ] || break
     done
     [ $tries -lt 30 ]
     result=$?
