@@ -26,6 +26,8 @@ OPT   := -O3
 BUILD := build/$(BOARD)
 V     :=
 Q     := $(if $(V),,@)
+# What a make within a make is given: a job for each core, unless whoever started the first one said how many.
+SUB    = --no-print-directory $(if $(filter -j%,$(MAKEFLAGS)),,-j$(shell nproc))
 
 CFLAGS := -std=c11 $(OPT) -g -Wall -Wextra -Werror -Wpedantic -Wshadow -Wconversion -Wsign-conversion \
           -Wstrict-prototypes -Wmissing-prototypes -Wold-style-definition -Wcast-align -Wcast-qual -Wwrite-strings \
@@ -163,7 +165,7 @@ $(BUILD)/tests/firmware/test_frame_tag_jpeg: LDLIBS += -ljpeg
 
 .PHONY: all programs
 all: setup-$(if $(CROSS),board,demo) ## Build firmware and tools into build/host, or for another board: make BOARD=rpi4
-	$(Q)$(MAKE) --no-print-directory programs
+	$(Q)$(MAKE) $(SUB) programs
 programs: $(PROGRAMS:%=$(BUILD)/%) ## Build them, and install nothing
 
 # Install what is missing, once: see board/setup.sh.
@@ -178,17 +180,17 @@ build/sysroot.made: board/sysroot.sh
 
 .PHONY: boards
 boards: setup-board ## Build firmware and tools for every board, each into build/NAME
-	$(Q)for board in $(BOARDS); do $(MAKE) --no-print-directory BOARD=$$board programs || exit 1; done
+	$(Q)for board in $(BOARDS); do $(MAKE) $(SUB) BOARD=$$board programs || exit 1; done
 
 .PHONY: demo
 demo: setup-demo ## Run a room of three walls and a floor, and write the page build/demo/index.html
-	$(Q)$(MAKE) --no-print-directory programs
+	$(Q)$(MAKE) $(SUB) programs
 	$(Q)$(BUILD)/wallwarp-sim run sim/demo/room.yaml --video sim/demo/studio_960x540.png --poses sim/demo/walk.csv \
 	    --original tests/images/studio_1920x1080.png --out build/demo
 
 .PHONY: study
 study: setup-demo ## Do the paper's experiments again, and write the page build/study/index.html
-	$(Q)$(MAKE) --no-print-directory programs
+	$(Q)$(MAKE) $(SUB) programs
 	$(Q)$(BUILD)/wallwarp-eval study --out build/study
 
 # What a board needs is printed from its own tables by a program of this machine, whatever the board is built with.
@@ -207,7 +209,7 @@ CARD  := DEV IMAGE NODE ROOM KEY CAN DISPLAY CAMERA YES
 given  = $(foreach n,$(1),$(if $(filter command,$(firstword $(origin $(n)))),'$(n)=$(subst ','\'',$($(n)))'))
 .PHONY: flash
 flash: setup-flash ## Write a board's card: make BOARD=rpi4 flash DEV=/dev/sdX NODE=3 ROOM=studio.yaml; lists disks without DEV
-	$(Q)$(MAKE) -s BOARD=host BUILD=build/host build/host/wallwarp
+	$(Q)$(MAKE) -s $(SUB) BOARD=host BUILD=build/host build/host/wallwarp
 	$(Q)env -u MAKEFLAGS board/image/flash.sh 'BOARD=$(BOARD)' $(call given,$(CARD))
 
 # --- tests ------------------------------------------------------------------------------------------------------------
@@ -229,7 +231,7 @@ $(CHECK_KERNELS): $(call objects,$(wildcard tests/kernels/*.c)) $(BUILD)/libwarp
 .PHONY: golden $(GOLDEN_VARIANTS:%=golden-%)
 golden: $(GOLDEN_VARIANTS:%=golden-%) ## Build what checks that other compilers and CPUs make the same bytes
 $(GOLDEN_VARIANTS:%=golden-%): golden-%:
-	$(Q)variant=$* && $(MAKE) --no-print-directory BUILD=build/variants/$* CC=$${variant%-O?} OPT=-$${variant##*-} \
+	$(Q)variant=$* && $(MAKE) $(SUB) BUILD=build/variants/$* CC=$${variant%-O?} OPT=-$${variant##*-} \
 	    LDFLAGS=-static build/variants/$*/golden_hashes $(if $(filter $*,$(KERNEL_VARIANTS)),build/variants/$*/check_kernels)
 
 # Vector code has forms of its own for AVX2 and AVX-512: built for this CPU, as the benchmark is, and without AVX-512.
@@ -242,10 +244,10 @@ x86_checks    = $(addprefix $(1)/,check_kernels tests/warp_fixed/test_neon tests
 .PHONY: golden-x86 golden-x86-avx2
 golden: golden-x86 golden-x86-avx2
 golden-x86:
-	$(Q)$(MAKE) --no-print-directory BUILD=$(X86) OPT='$(X86_OPT)' LIBS=$(X86)/libwarp.a \
+	$(Q)$(MAKE) $(SUB) BUILD=$(X86) OPT='$(X86_OPT)' LIBS=$(X86)/libwarp.a \
 	    $(X86)/golden_hashes $(call x86_checks,$(X86))
 golden-x86-avx2:
-	$(Q)$(MAKE) --no-print-directory BUILD=$(X86_AVX2) OPT='$(X86_AVX2_OPT)' LIBS=$(X86_AVX2)/libwarp.a \
+	$(Q)$(MAKE) $(SUB) BUILD=$(X86_AVX2) OPT='$(X86_AVX2_OPT)' LIBS=$(X86_AVX2)/libwarp.a \
 	    $(call x86_checks,$(X86_AVX2))
 
 # Commands of the test run, one word list each.
@@ -263,18 +265,17 @@ RUN_TESTS     = $(foreach t,$(TESTS),'$(t)') $(foreach s,$(SCRIPTS),'$(s) $(BUIL
                 'tests/golden/check.sh $(X86)/golden_hashes neon' \
                 $(foreach t,$(call x86_checks,$(X86)) $(call x86_checks,$(X86_AVX2)),'$(t)')
 
-.PHONY: test run-tests
+.PHONY: test test-programs
 test: setup-test ## Run every test but those on the virtual board; the last line says how many passed and failed
-	$(Q)$(MAKE) --no-print-directory programs
-	$(Q)$(MAKE) --no-print-directory golden run-tests
-run-tests: programs $(TESTS) $(HELPERS)
+	$(Q)$(MAKE) $(SUB) test-programs
 	$(Q)tests/run.sh build/test-logs $(RUN_TESTS)
+test-programs: programs golden $(TESTS) $(HELPERS)
 
 # Sanitizers have a heap of their own, and lock no memory.
 NOT_SANITIZED := %_no_heap.c %/test_realtime_linux.c
 .PHONY: sanitize
 sanitize: setup-test ## Run the unit tests again with the address and undefined-behaviour sanitizers
-	$(Q)$(MAKE) --no-print-directory BUILD=build/sanitize OPT='-O1 -fsanitize=address,undefined \
+	$(Q)$(MAKE) $(SUB) BUILD=build/sanitize OPT='-O1 -fsanitize=address,undefined \
 	    -fno-sanitize-recover=all -fno-omit-frame-pointer' \
 	    TESTS_C='$(filter-out $(NOT_SANITIZED),$(TESTS_C))' run-unit-tests
 .PHONY: run-unit-tests
@@ -283,7 +284,7 @@ run-unit-tests: $(TESTS) $(CHECK_KERNELS)
 
 .PHONY: sanitize-threads
 sanitize-threads: setup-test ## Run the workers' test with the thread sanitizer
-	$(Q)$(MAKE) --no-print-directory BUILD=build/sanitize-threads OPT='-O1 -fsanitize=thread' \
+	$(Q)$(MAKE) $(SUB) BUILD=build/sanitize-threads OPT='-O1 -fsanitize=thread' \
 	    TESTS_C=tests/hal/linux/test_workers_pthread.c CHECK_KERNELS= run-unit-tests
 
 .PHONY: freestanding
@@ -315,9 +316,9 @@ VIRTUAL_TESTS    := $(wildcard tests/board/virtual/test_*.sh)
 
 .PHONY: test-board virtual-programs
 test-board: setup-test setup-board ## Boot a virtual arm64 board and run the firmware in it; the last line says how many tests passed
-	$(Q)$(MAKE) --no-print-directory -j2 build/sysroot.made build/board-kernel.made programs \
+	$(Q)$(MAKE) $(SUB) build/sysroot.made build/board-kernel.made programs \
 	    $(addprefix build/host/tests/,hal/linux/print_edid board/picture_tool board/wire_tool)
-	$(Q)$(MAKE) --no-print-directory -j2 BOARD=qemu-virt virtual-programs
+	$(Q)$(MAKE) $(SUB) BOARD=qemu-virt virtual-programs
 	$(Q)tests/board/virtual/run.sh build/test-board build/qemu-virt $(VIRTUAL_TESTS)
 virtual-programs: programs $(VIRTUAL_PROGRAMS) $(OTHER_BOARD) $(HEAP_COUNTER) build/board-kernel/initramfs.gz
 
@@ -338,7 +339,7 @@ DIR             :=
 
 .PHONY: image
 image: setup-image ## Make the image of a board's card, packed for make flash: make BOARD=rpi4 image
-	$(Q)$(MAKE) --no-print-directory programs $(BUILD)/wallwarp-$(BOARD).img.xz $(BUILD)/wallwarp-$(BOARD).spdx
+	$(Q)$(MAKE) $(SUB) programs $(BUILD)/wallwarp-$(BOARD).img.xz $(BUILD)/wallwarp-$(BOARD).spdx
 build/image.made: board/image/debian.sh board/debian.sh
 	$(if $(V),,@echo "  DEBIAN build/image")
 	$(Q)board/image/debian.sh build/image
@@ -374,14 +375,14 @@ $(PARTS)/version: FORCE
 
 .PHONY: test-image
 test-image: setup-test setup-board setup-image ## Boot the image of the virtual board, update it, and cut its power CUTS=2 times; the last line says how many tests passed
-	$(Q)$(MAKE) --no-print-directory BOARD=qemu-virt image
-	$(Q)$(MAKE) --no-print-directory programs build/host/tests/board/picture_tool
+	$(Q)$(MAKE) $(SUB) BOARD=qemu-virt image
+	$(Q)$(MAKE) $(SUB) programs build/host/tests/board/picture_tool
 	$(Q)tests/run.sh build/test-image $(foreach t,$(IMAGE_TESTS) $(wildcard tests/board/image/vm_*.sh),'$(t) build/qemu-virt') \
 	    'tests/board/image/on_used_card.sh build/qemu-virt/wallwarp-qemu-virt.img.xz'
 
 .PHONY: bundle signing-key FORCE
 bundle: setup-image ## Make a signed update: make BOARD=rpi4 SIGNING_KEY=signing.key SIGNING_CERT=signing.pem bundle
-	$(Q)$(MAKE) --no-print-directory programs $(BUILD)/wallwarp-$(BOARD).raucb
+	$(Q)$(MAKE) $(SUB) programs $(BUILD)/wallwarp-$(BOARD).raucb
 $(BUILD)/wallwarp-$(BOARD).raucb: $(PARTS)/root.squashfs $(PARTS)/kernel.vfat $(SIGNING_KEY) $(SIGNING_CERT)
 	$(Q)board/image/bundle.sh $(BOARD) $(PARTS) $(SIGNING_CERT) $(SIGNING_KEY) $@
 	$(if $(filter $(DEVELOPMENT_KEY)/%,$(SIGNING_KEY)),@echo "signed with the development key of build/; for the boards of others make your own: make signing-key")
@@ -412,7 +413,7 @@ $(BUILD)/bench_arm $(BUILD)/bench_cache: $(BUILD)/%: $(BUILD)/obj/tests/bench/%.
 ROUNDS := 15
 .PHONY: bench
 bench: setup-bench ## Time each pixel on this machine beside OpenCV and memcpy as CSV, and draw build/bench/bench.svg
-	$(Q)$(MAKE) --no-print-directory BUILD=$(X86) OPT='$(X86_OPT)' $(X86)/bench_x86 >&2
+	$(Q)$(MAKE) $(SUB) BUILD=$(X86) OPT='$(X86_OPT)' $(X86)/bench_x86 >&2
 	$(Q)mkdir -p build/bench
 	$(Q)$(X86)/bench_x86 $(ROUNDS) build/bench
 $(BUILD)/bench_x86: $(call objects,$(wildcard tests/bench/*_x86.c tests/bench/x86_*.c) tests/bench/workload.c \
@@ -426,8 +427,8 @@ KERNELS  := neon
 BASELINE := tests/bench/baseline.csv
 .PHONY: bench-arm
 bench-arm: setup-bench ## Count the instructions and A72 cycles of each pixel as CSV; fail if more than the baseline
-	$(Q)$(MAKE) --no-print-directory $(BUILD)/count_plugin.so >&2
-	$(Q)$(MAKE) --no-print-directory BUILD=$(ARM) CC=aarch64-linux-gnu-gcc OPT=-O3 LDFLAGS=-static $(ARM)/bench_arm >&2
+	$(Q)$(MAKE) $(SUB) $(BUILD)/count_plugin.so >&2
+	$(Q)$(MAKE) $(SUB) BUILD=$(ARM) CC=aarch64-linux-gnu-gcc OPT=-O3 LDFLAGS=-static $(ARM)/bench_arm >&2
 	$(Q)tests/bench/test_count_plugin.sh $(BUILD) >&2
 	$(Q)tests/bench/check_a72_cycles.sh $(BUILD) >&2
 	$(Q)tests/bench/bench_arm.sh $(BUILD)/count_plugin.so $(ARM)/bench_arm build/bench/arm $(KERNELS) $(BASELINE)
@@ -440,8 +441,8 @@ budget: ## Print which method holds 60 Hz on which board, with how many cores an
 
 .PHONY: bench-cache
 bench-cache: setup-test ## Count the cache lines that an A72 fetches per pixel as CSV: turned frames, tiles of many sizes
-	$(Q)$(MAKE) --no-print-directory $(BUILD)/cache_plugin.so >&2
-	$(Q)$(MAKE) --no-print-directory BUILD=$(ARM) CC=aarch64-linux-gnu-gcc OPT=-O3 LDFLAGS=-static $(ARM)/bench_cache >&2
+	$(Q)$(MAKE) $(SUB) $(BUILD)/cache_plugin.so >&2
+	$(Q)$(MAKE) $(SUB) BUILD=$(ARM) CC=aarch64-linux-gnu-gcc OPT=-O3 LDFLAGS=-static $(ARM)/bench_cache >&2
 	$(Q)tests/bench/bench_cache.sh $(BUILD)/cache_plugin.so $(ARM)/bench_cache build/bench/cache
 
 # --- fuzzing ----------------------------------------------------------------------------------------------------------
@@ -455,7 +456,7 @@ $(BUILD)/tests/fuzz/%: $(BUILD)/obj/tests/fuzz/%.c.o $(call objects,$(filter-out
 
 .PHONY: fuzz run-fuzz
 fuzz: setup-test ## Search for inputs that break the readers and the warp, SECONDS=20 for each target
-	$(Q)$(MAKE) --no-print-directory BUILD=build/fuzz CC=clang OPT='-O2 -fsanitize=fuzzer,address,undefined \
+	$(Q)$(MAKE) $(SUB) BUILD=build/fuzz CC=clang OPT='-O2 -fsanitize=fuzzer,address,undefined \
 	    -fno-sanitize-recover=all -fno-omit-frame-pointer' run-fuzz
 run-fuzz: $(FUZZERS)
 	$(Q)tests/fuzz/run.sh $(BUILD) $(SECONDS)
@@ -464,7 +465,7 @@ run-fuzz: $(FUZZERS)
 
 .PHONY: size
 size: setup-demo ## Print the sizes of code, static memory, and the worst stack of every function
-	$(Q)$(MAKE) --no-print-directory BUILD=build/size OPT='-O3 -fstack-usage' build/size/wallwarp
+	$(Q)$(MAKE) $(SUB) BUILD=build/size OPT='-O3 -fstack-usage' build/size/wallwarp
 	$(Q)board/size.sh build/size
 
 .PHONY: clean
