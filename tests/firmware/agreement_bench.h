@@ -16,8 +16,9 @@
 #include "sim/pose/pose_sender.h"
 #include "sim/run/sim_world.h"
 #include "tests/support/scratch.h"
+#include "tests/support/small_room.h"
 
-enum { BOARDS = 8, HZ = 60, POSES_HZ = 237, START_S = 25, SEED = 3, TEXT_LENGTH = 4096, CONTENTS = 16 };
+enum { BOARDS = 8, HZ = 60, POSES_HZ = 237, START_S = 25, SEED = 3, CONTENTS = 16 };
 
 static const sim_rate_t REFRESH = {8333, HZ, 1};
 
@@ -61,30 +62,6 @@ static inline video_t *open_video_60(char error[FILE_ERROR_LENGTH])
     return video;
 }
 
-static inline void load_room(room_t *room, const bench_settings_t *settings)
-{
-    scratch_t scratch;
-    char path[SCRATCH_PATH_LENGTH], text[TEXT_LENGTH], error[ROOM_MESSAGE_LENGTH] = "";
-    int length = snprintf(text, sizeof text,
-                          "camera: {width: 96, height: 54, focal_px: [60, 60], principal_px: [48, 27]}\n"
-                          "can: {fd: %s}\nboards:\n",
-                          settings->classic ? "false" : "true");
-    for (int i = 1; i <= BOARDS; i++)
-        length += snprintf(text + length, sizeof text - (size_t)length,
-                           "  - name: wall%d\n    node: %d\n    projector: {width: 16, height: 9}\n"
-                           "    display_delay_ms: %.3f\n"
-                           "    wall: {corners_mm: [[-2000, -1125, %d], [2000, -1125, %d], [2000, 1125, %d], null]}\n",
-                           i, i, settings->display_ms == NULL ? 0 : settings->display_ms[i - 1], 1000 * i, 1000 * i,
-                           1000 * i);
-    scratch_open(&scratch);
-    scratch_path(&scratch, "room.yaml", path);
-    scratch_write(path, text, strlen(text));
-    const bool loaded = room_load(room, path, NULL, NULL, error);
-    scratch_close(&scratch);
-    assert_string_equal(error, "");
-    assert_true(loaded);
-}
-
 static inline void make_walk(pose_list_t *list, int seconds)
 {
     list->count = (size_t)seconds * POSES_HZ;
@@ -101,7 +78,10 @@ static inline void bench_open_with(bench_t *b, int seconds, const bench_settings
 {
     char error[FILE_ERROR_LENGTH] = "";
     memset(b, 0, sizeof *b);
-    load_room(&b->room, settings);
+    small_room_load(&b->room, &(small_room_t){.boards = BOARDS,
+                                              .nodes_apart = 1,
+                                              .classic = settings->classic,
+                                              .display_ms = settings->display_ms});
     make_walk(&b->list, seconds);
     b->video = settings->video_60 ? open_video_60(error) : video_open("pattern", 96, 54, error);
     assert_string_equal(error, "");

@@ -3,7 +3,6 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,9 +10,9 @@
 
 #include "sim/devices/sim_clock.h"
 #include "sim/run/sim_world.h"
-#include "tests/support/scratch.h"
+#include "tests/support/small_room.h"
 
-enum { BOARDS = 8, HZ = 60, LOCK_S = 25, SEED = 5, TEXT_LENGTH = 4096 };
+enum { BOARDS = 8, HZ = 60, LOCK_S = 25, SEED = 5 };
 
 static const sim_rate_t REFRESH = {8333, HZ, 1};
 
@@ -40,31 +39,11 @@ static void listen(void *context, int sender, const hal_can_frame_t *frame)
     b->messages[sender]++;
 }
 
-static void load_room(room_t *room)
-{
-    scratch_t scratch;
-    char path[SCRATCH_PATH_LENGTH], text[TEXT_LENGTH], error[ROOM_MESSAGE_LENGTH] = "";
-    int length = snprintf(text, sizeof text,
-                          "camera: {width: 96, height: 54, focal_px: [60, 60], principal_px: [48, 27]}\nboards:\n");
-    for (int i = 1; i <= BOARDS; i++)
-        length += snprintf(text + length, sizeof text - (size_t)length,
-                           "  - name: wall%d\n    node: %d\n    projector: {width: 16, height: 9}\n    viewer: %d\n"
-                           "    wall: {corners_mm: [[-2000, -1125, %d], [2000, -1125, %d], [2000, 1125, %d], null]}\n",
-                           i, i, i % CAN_VIEWERS, 1000 * i, 1000 * i, 1000 * i);
-    scratch_open(&scratch);
-    scratch_path(&scratch, "room.yaml", path);
-    scratch_write(path, text, strlen(text));
-    const bool loaded = room_load(room, path, NULL, NULL, error);
-    scratch_close(&scratch);
-    assert_string_equal(error, "");
-    assert_true(loaded);
-}
-
 static void bench_open(bench_t *b, const sim_world_clocks_t *clocks)
 {
     char error[FILE_ERROR_LENGTH] = "";
     memset(b, 0, sizeof *b);
-    load_room(&b->room);
+    small_room_load(&b->room, &(small_room_t){.boards = BOARDS, .nodes_apart = 1, .viewers = true});
     b->video = video_open("pattern", 96, 54, error);
     assert_string_equal(error, "");
     const sim_world_config_t config = {

@@ -5,12 +5,13 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
 
 #include "firmware/safe_picture.h"
-#include "tests/support/scratch.h"
+#include "tests/support/small_room.h"
 
 static const char room_text[] =
     "camera: {width: 96, height: 54, focal_px: [60, 60], principal_px: [48, 27]}\n"
@@ -60,21 +61,6 @@ static void listen(void *context, int sender, const hal_can_frame_t *frame)
     }
 }
 
-static void load_room(room_t *room, bool fd)
-{
-    scratch_t scratch;
-    char path[SCRATCH_PATH_LENGTH], text[1024], error[ROOM_MESSAGE_LENGTH] = "";
-    strcpy(text, room_text);
-    strcat(text, fd ? "true}\n" : "false}\n");
-    scratch_open(&scratch);
-    scratch_path(&scratch, "room.yaml", path);
-    scratch_write(path, text, strlen(text));
-    const bool loaded = room_load(room, path, NULL, NULL, error);
-    scratch_close(&scratch);
-    assert_string_equal(error, "");
-    assert_true(loaded);
-}
-
 void room_bench_open(room_bench_t *bench, bool fd)
 {
     room_bench_open_with_key(bench, fd, NULL);
@@ -82,9 +68,10 @@ void room_bench_open(room_bench_t *bench, bool fd)
 
 void room_bench_open_with_key(room_bench_t *bench, bool fd, can_auth_t *key)
 {
-    char error[FILE_ERROR_LENGTH] = "";
+    char text[sizeof room_text + 8], error[FILE_ERROR_LENGTH] = "";
     memset(bench, 0, sizeof *bench);
-    load_room(&bench->room, fd);
+    (void)snprintf(text, sizeof text, "%s%s}\n", room_text, fd ? "true" : "false");
+    room_from_text(&bench->room, text);
     bench->video = video_open("pattern", 96, 54, error);
     assert_string_equal(error, "");
     static const sim_update_settings_t update = {

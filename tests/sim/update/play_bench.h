@@ -6,35 +6,13 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <stdio.h>
-#include <string.h>
 
 #include <cmocka.h>
 
 #include "sim/update/update_play.h"
-#include "tests/support/scratch.h"
+#include "tests/support/small_room.h"
 
-enum { MOST_BOARDS = 6, ROOM_TEXT_LENGTH = 2000, PERIOD_US = 16667, TIME_BOUND_US = 2000 };
-
-static inline void load_boards(room_t *room, int boards)
-{
-    scratch_t scratch;
-    char path[SCRATCH_PATH_LENGTH], text[ROOM_TEXT_LENGTH], error[ROOM_MESSAGE_LENGTH] = "";
-    int length = snprintf(text, sizeof text,
-                          "camera: {width: 96, height: 54, focal_px: [60, 60], principal_px: [48, 27]}\nboards:\n");
-    for (int i = 1; i <= boards; i++)
-        length += snprintf(text + length, sizeof text - (size_t)length,
-                           "  - name: wall%d\n    node: %d\n    projector: {width: 16, height: 9}\n"
-                           "    wall: {corners_mm: [[-2000, -1125, %d], [2000, -1125, %d], [2000, 1125, %d], null]}\n",
-                           i, 7 * i, 1000 * i, 1000 * i, 1000 * i);
-    scratch_open(&scratch);
-    scratch_path(&scratch, "room.yaml", path);
-    scratch_write(path, text, strlen(text));
-    const bool loaded = room_load(room, path, NULL, NULL, error);
-    scratch_close(&scratch);
-    assert_string_equal(error, "");
-    assert_true(loaded);
-}
+enum { MOST_BOARDS = 6, PERIOD_US = 16667, TIME_BOUND_US = 2000 };
 
 /* No board switches before all have the bundle. @return What is wrong, or NULL. */
 static inline const char *wrong_now(const update_play_t *play, int boards, int64_t first_us)

@@ -24,7 +24,7 @@ static void test_any_update(void **state)
     for (int n = 0; n < CASES; n++) {
         char error[FILE_ERROR_LENGTH] = "", text[200];
         const int boards = (int)rng_int(&random, 1, MOST_BOARDS);
-        load_boards(&room, boards);
+        small_room_load(&room, &(small_room_t){.boards = boards, .nodes_apart = 7});
         update_play_settings_t settings = {.room = &room,
                                            .install_us = rng_int(&random, 1, 4 * SECOND_US),
                                            .reboot_us = rng_int(&random, 1, 5 * SECOND_US),

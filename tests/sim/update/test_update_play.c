@@ -18,7 +18,7 @@ static void play_in(update_play_failure_t failure, can_auth_t *key)
                                        .seed = 5,
                                        .key = key};
     settings.failure[VICTIM] = failure;
-    load_boards(&room, BOARDS);
+    small_room_load(&room, &(small_room_t){.boards = BOARDS, .nodes_apart = 7});
     play = update_play_open(&settings, error);
     assert_string_equal(error, "");
     const char *wrong = play_all(play, BOARDS);
