@@ -5,7 +5,7 @@
 #
 # usage: board/initramfs.sh BUSYBOX INIT MODULES OUT MODULE...      MODULES is a folder that has lib/modules/VERSION; a
 #                                                                   MODULE may have parameters behind it, in one word
-set -eu
+set -eu -o pipefail
 [ $# -ge 4 ] || { echo "usage: board/initramfs.sh BUSYBOX INIT MODULES OUT MODULE..." >&2; exit 2; }
 busybox=$1
 init=$2

@@ -6,7 +6,7 @@
 #                                                 folder of debian.sh
 # NON_FREE=yes in the environment: take packages of Debian's non-free-firmware though this machine's apt does not. The
 # machine's configuration stays as it is: mmdebstrap has its own.
-set -eu
+set -eu -o pipefail
 
 # As mmdebstrap's hook, in the folder for the packages.
 if [ "$*" = --download ]; then

@@ -4,7 +4,7 @@
 #
 # usage: board/image/debian.sh FOLDER      makes FOLDER/root, the unpacked packages; FOLDER/kernel, the same of the kernel's
 #                                          package; FOLDER/packages, the list of both
-set -eu
+set -eu -o pipefail
 
 # As mmdebstrap's hook. The kernel's package would bring what makes an initramfs on a board, so it comes without what it
 # depends on. It is the one that Debian's package without a version names.

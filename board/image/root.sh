@@ -5,7 +5,7 @@
 # usage: board/image/root.sh BOARD DEBIAN CA VERSION OUT      DEBIAN is the folder of debian.sh, CA the certificate that
 #                                                             bundles must come from; writes the tree OUT/root and its
 #                                                             squashfs OUT/root.squashfs
-set -eu
+set -eu -o pipefail
 [ $# = 5 ] || { echo "usage: board/image/root.sh BOARD DEBIAN CA VERSION OUT" >&2; exit 2; }
 here=$(dirname "$0")
 board=$1

@@ -3,7 +3,7 @@
 # Makes a board's kernel partition: kernel, first file system, command line.
 #
 # usage: board/image/slot.sh BOARD DEBIAN OUT      writes OUT/kernel.vfat
-set -eu
+set -eu -o pipefail
 [ $# = 3 ] || { echo "usage: board/image/slot.sh BOARD DEBIAN OUT" >&2; exit 2; }
 here=$(dirname "$0")
 board=$1
