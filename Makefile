@@ -204,14 +204,6 @@ build/info/%: board/%/board.c board/%/info.c board/print_info.c board/board_info
 	$(Q)mkdir -p $(@D)
 	$(Q)$(HOST_CC) -I. -std=c11 -Wall -Wextra -Werror -o $@ $(filter %.c,$^)
 
-# What a card gets is said on the command line: a desktop has a DISPLAY of its own. How: board/image/README.md.
-CARD  := DEV IMAGE NODE ROOM KEY CAN DISPLAY CAMERA YES
-given  = $(foreach n,$(1),$(if $(filter command,$(firstword $(origin $(n)))),'$(n)=$(subst ','\'',$($(n)))'))
-.PHONY: flash
-flash: setup-flash ## Write a board's card: make BOARD=rpi4 flash DEV=/dev/sdX NODE=3 ROOM=studio.yaml; lists disks without DEV
-	$(Q)$(MAKE) -s $(SUB) BOARD=host BUILD=build/host build/host/wallwarp
-	$(Q)env -u MAKEFLAGS board/image/flash.sh 'BOARD=$(BOARD)' $(call given,$(CARD))
-
 # --- tests ------------------------------------------------------------------------------------------------------------
 
 # The same bytes from other compilers, optimisations and CPUs: each variant builds warp_fixed and golden_hashes anew.
@@ -322,76 +314,7 @@ test-board: setup-test setup-board ## Boot a virtual arm64 board and run the fir
 	$(Q)tests/board/virtual/run.sh build/test-board build/qemu-virt $(VIRTUAL_TESTS)
 virtual-programs: programs $(VIRTUAL_PROGRAMS) $(OTHER_BOARD) $(HEAP_COUNTER) build/board-kernel/initramfs.gz
 
-# --- images of cards --------------------------------------------------------------------------------------------------
-
-# Files in them have the time of the newest commit, so that the same tree gives the same bytes.
-PARTS       := $(BUILD)/image
-EPOCH       := echo $${SOURCE_DATE_EPOCH-$$(git log -1 --format=%ct)}
-IMAGE_EPOCH  = SOURCE_DATE_EPOCH=$$($(EPOCH))
-IMAGE_FILES := $(shell find board/image board/service board/$(BOARD) board/initramfs.sh -type f)
-
-# What bundles are signed with, and what boards check them with. Your own: make signing-key DIR=...
-DEVELOPMENT_KEY := build/development-key
-SIGNING_KEY     := $(DEVELOPMENT_KEY)/signing.key
-SIGNING_CERT    := $(DEVELOPMENT_KEY)/signing.pem
-CA              := $(DEVELOPMENT_KEY)/ca.pem
-DIR             :=
-
-.PHONY: image
-image: setup-image ## Make the image of a board's card, packed for make flash: make BOARD=rpi4 image
-	$(Q)$(MAKE) $(SUB) programs $(BUILD)/wallwarp-$(BOARD).img.xz $(BUILD)/wallwarp-$(BOARD).spdx
-build/image.made: board/image/debian.sh board/debian.sh
-	$(if $(V),,@echo "  DEBIAN build/image")
-	$(Q)board/image/debian.sh build/image
-	$(Q)touch $@
-$(PARTS)/boot.made: build/image.made $(IMAGE_FILES)
-	$(if $(V),,@echo "  BOOT  $(PARTS)/boot")
-	$(Q)board/image/boot.sh $(BOARD) build/image $(PARTS)
-	$(Q)touch $@
-$(PARTS)/root.squashfs: build/image.made $(PARTS)/boot.made $(IMAGE_FILES) $(PROGRAMS:%=$(BUILD)/%) $(PARTS)/ca.pem \
-    $(PARTS)/version
-	$(if $(V),,@echo "  ROOT  $@")
-	$(Q)$(IMAGE_EPOCH) board/image/root.sh $(BOARD) build/image $(PARTS)/ca.pem "$$(cat $(PARTS)/version)" $(PARTS)
-$(PARTS)/kernel.vfat: build/image.made $(PARTS)/boot.made $(IMAGE_FILES) build/info/$(BOARD)
-	$(if $(V),,@echo "  SLOT  $@")
-	$(Q)$(IMAGE_EPOCH) board/image/slot.sh $(BOARD) build/image $(PARTS)
-$(BUILD)/wallwarp-$(BOARD).img: $(PARTS)/root.squashfs $(PARTS)/kernel.vfat
-	$(if $(V),,@echo "  IMAGE $@")
-	$(Q)$(IMAGE_EPOCH) board/image/image.sh $(BOARD) $(PARTS) $@
-$(BUILD)/wallwarp-$(BOARD).img.xz: $(BUILD)/wallwarp-$(BOARD).img
-	$(if $(V),,@echo "  XZ    $@")
-	$(Q)board/image/pack.sh $<
-$(BUILD)/wallwarp-$(BOARD).spdx: build/image.made board/image/licences.awk
-	$(if $(V),,@echo "  SPDX  $@")
-	$(Q)awk -v name=wallwarp-$(BOARD) -v created="$$(date -u -d "@$$($(EPOCH))" +%Y-%m-%dT%H:%M:%SZ)" -v root=build/image/root \
-	    -f board/image/licences.awk build/image/packages >$@
-# Another certificate is another image, whichever file is newer.
-$(PARTS)/ca.pem: $(CA) FORCE
-	@mkdir -p $(@D)
-	@cmp -s $< $@ || cp $< $@
-$(PARTS)/version: FORCE
-	@mkdir -p $(@D)
-	@board/image/version.sh | cmp -s - $@ || board/image/version.sh >$@
-
-.PHONY: test-image
-test-image: setup-test setup-board setup-image ## Boot the image of the virtual board, update it, and cut its power CUTS=2 times; the last line says how many tests passed
-	$(Q)$(MAKE) $(SUB) BOARD=qemu-virt image
-	$(Q)$(MAKE) $(SUB) programs build/host/tests/board/picture_tool
-	$(Q)tests/run.sh build/test-image $(foreach t,$(IMAGE_TESTS) $(wildcard tests/board/image/vm_*.sh),'$(t) build/qemu-virt') \
-	    'tests/board/image/on_used_card.sh build/qemu-virt/wallwarp-qemu-virt.img.xz'
-
-.PHONY: bundle signing-key FORCE
-bundle: setup-image ## Make a signed update: make BOARD=rpi4 SIGNING_KEY=signing.key SIGNING_CERT=signing.pem bundle
-	$(Q)$(MAKE) $(SUB) programs $(BUILD)/wallwarp-$(BOARD).raucb
-$(BUILD)/wallwarp-$(BOARD).raucb: $(PARTS)/root.squashfs $(PARTS)/kernel.vfat $(SIGNING_KEY) $(SIGNING_CERT)
-	$(Q)board/image/bundle.sh $(BOARD) $(PARTS) $(SIGNING_CERT) $(SIGNING_KEY) $@
-	$(if $(filter $(DEVELOPMENT_KEY)/%,$(SIGNING_KEY)),@echo "signed with the development key of build/; for the boards of others make your own: make signing-key")
-signing-key: ## Make the key that your boards' updates are signed with: make DIR=FOLDER signing-key
-	$(if $(DIR),,$(error signing-key: say where it is to be kept: make DIR=FOLDER signing-key))
-	$(Q)board/image/signing_key.sh "$(DIR)"
-$(addprefix $(DEVELOPMENT_KEY)/,signing.key signing.pem ca.pem) &:
-	@echo "  KEY   $(DEVELOPMENT_KEY): for trying; for the boards of others make your own: make signing-key"
-	$(Q)rm -rf $(DEVELOPMENT_KEY); board/image/signing_key.sh $(DEVELOPMENT_KEY) 2>/dev/null
+include board/image/image.mk
 
 # --- benchmarks -------------------------------------------------------------------------------------------------------
 
