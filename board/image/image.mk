@@ -17,11 +17,12 @@ CARD_FILES  := $(call of_images,image.sh fat.sh boot_script.sh boot.cmd) board/s
 EPOCH       := echo $${SOURCE_DATE_EPOCH-$$(git log -1 --format=%ct 2>/dev/null || stat -c %Y firmware/version.h)}
 IMAGE_EPOCH  = SOURCE_DATE_EPOCH=$$($(EPOCH))
 
-# What bundles are signed with, and what boards check them with. Your own: make signing-key DIR=...
+# What bundles are signed with, and what boards check them with. Your own: make signing-key DIR=... A bundle brings with it
+# what the next one is checked with.
 DEVELOPMENT_KEY := build/development-key
 SIGNING_KEY     := $(DEVELOPMENT_KEY)/signing.key
 SIGNING_CERT    := $(DEVELOPMENT_KEY)/signing.pem
-CA              := $(DEVELOPMENT_KEY)/ca.pem
+CA              := $(dir $(SIGNING_CERT))ca.pem
 DIR             :=
 
 .PHONY: image
@@ -71,7 +72,7 @@ signing-key: ## Make the key that your boards' updates are signed with: make DIR
 	$(Q)board/image/signing_key.sh "$(DIR)"
 $(addprefix $(DEVELOPMENT_KEY)/,signing.key signing.pem ca.pem) &:
 	@echo "  KEY   $(DEVELOPMENT_KEY): for trying; for the boards of others make your own: make signing-key"
-	$(Q)rm -rf $(DEVELOPMENT_KEY); board/image/signing_key.sh $(DEVELOPMENT_KEY) 2>/dev/null
+	$(Q)rm -rf $(DEVELOPMENT_KEY); said=$$(board/image/signing_key.sh $(DEVELOPMENT_KEY) 2>&1) || { echo "$$said" >&2; exit 1; }
 
 # What a card gets is said on the command line: a desktop has a DISPLAY of its own. How: board/image/README.md.
 CARD  := DEV IMAGE NODE ROOM KEY CAN DISPLAY CAMERA YES

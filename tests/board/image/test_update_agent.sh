@@ -21,7 +21,8 @@ program() {
 
 # bundle NAME BOARD VERSION KEYS
 bundle() {
-    mkdir -p "$folder/slot/root/usr/lib/wallwarp"
+    mkdir -p "$folder"/slot/root/{etc/rauc,usr/lib/wallwarp}
+    cp "$folder/$4/ca.pem" "$folder/slot/root/etc/rauc/keyring.pem"
     echo "$3" >"$folder/slot/root/usr/lib/wallwarp/version"
     head -c 300000 /dev/urandom >"$folder/slot/root/programs"
     mksquashfs "$folder/slot/root" "$folder/slot/root.squashfs" -noappend -quiet -no-progress
