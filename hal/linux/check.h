@@ -72,6 +72,9 @@ void check_lines(check_t *check);
 /** The watchdog: is it there, and who has it. */
 void check_watchdog(check_t *check);
 
+/** Updates: is there an agent, and is it started; the slot, its version and whether that is marked good; what waits. */
+void check_update(check_t *check);
+
 /** Rights and the machine: priority, locked memory, cores, their governor, the clock source. */
 void check_system(check_t *check);
 

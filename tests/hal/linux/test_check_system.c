@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests of --check on Linux where /sys, /proc and /dev can be made up: cores, governor, clock, watchdog, who says what.
+// Tests of --check on Linux where its files can be made up: cores, governor, clock, watchdog, updates, who says what.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +13,7 @@
 #include "hal/linux/check.h"
 #include "tests/support/scratch.h"
 
-enum { LINES = 16, FOLDERS = 16 };
+enum { LINES = 16, FOLDERS = 32 };
 
 /* What was said, and the made-up machine. */
 typedef struct {
@@ -205,6 +205,66 @@ static void test_held_devices(void **state)
     assert_true(check.missing);
 }
 
+static void check_update_again(void)
+{
+    machine.lines = 0;
+    check_update(&check);
+}
+
+static void write_update_state(const char *text)
+{
+    write_file("/run/wallwarp/update/state", text);
+    machine.files--; /* the same one again */
+    check_update_again();
+}
+
+static void test_updates(void **state)
+{
+    static const char link[] = "/etc/systemd/system/multi-user.target.wants/wallwarp-update";
+    char path[CHECK_LINE_LENGTH];
+    (void)state;
+    check_update_again();
+    assert_said(HAL_CHECK_FOUND, "updates: there is no update agent");
+    assert_int_equal(machine.lines, 1);
+
+    write_file("/usr/local/lib/wallwarp/update_agent", "");
+    check_update_again();
+    assert_said(HAL_CHECK_ADVICE, "updates: wallwarp-update.path is not enabled, expected it at each start; to mend: "
+                                  "sudo systemctl enable --now wallwarp-update.path");
+    assert_said(HAL_CHECK_ADVICE, "updates: wallwarp-update-start.service is not enabled");
+    assert_said(HAL_CHECK_ADVICE,
+                "updates: /run/wallwarp/update/state can't be read, expected the update agent's lines");
+    assert_int_equal(machine.lines, 3);
+    assert_false(check.missing);
+
+    (void)snprintf(path, sizeof path, "%s.path", link);
+    write_file(path, "");
+    (void)snprintf(path, sizeof path, "%s-start.service", link);
+    write_file(path, "");
+    write_file("/run/wallwarp/update/state", "");
+    write_update_state("state=idle\nslot=A\ntrial=0\nrunning=1.0\nwaiting=\nother=0.9\n");
+    assert_said(HAL_CHECK_FOUND, "updates: slot A, version 1.0, marked good");
+    assert_said(HAL_CHECK_FOUND, "updates: version 0.9 is in the other slot, to go back to");
+    assert_int_equal(machine.lines, 2);
+    write_update_state("state=ready\nslot=A\ntrial=0\nrunning=1.0\nwaiting=2.0\nother=2.0\n");
+    assert_said(HAL_CHECK_FOUND, "updates: version 2.0 waits for the switch");
+    assert_int_equal(machine.lines, 2);
+    write_update_state("state=installing\nprogress=40\nslot=A\ntrial=0\nrunning=1.0\nmessage=usb\n");
+    assert_said(HAL_CHECK_FOUND, "updates: installing, 40 %: usb");
+    write_update_state("state=failed\nslot=B\ntrial=1\nrunning=2.0\nmessage=no stick\n");
+    assert_said(HAL_CHECK_FOUND, "updates: slot B, version 2.0, on trial");
+    assert_said(HAL_CHECK_FOUND, "updates: the last request failed: no stick");
+    write_update_state("state=idle\n");
+    assert_said(HAL_CHECK_FOUND, "updates: slot ?, version unknown, marked good");
+    write_update_state("nonsense\n");
+    assert_said(HAL_CHECK_ADVICE, "updates: /run/wallwarp/update/state can't be read");
+
+    write_file("/run/wallwarp/update/request", "switch\n");
+    check_update_again();
+    assert_said(HAL_CHECK_FOUND, "updates: the update agent has not answered the last request yet");
+    assert_false(check.missing);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -215,6 +275,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_rights, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_watchdog, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_held_devices, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_updates, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
