@@ -154,8 +154,7 @@ find_stick() {
 # What comes over the network is nobody's until RAUC has checked its signature.
 fetch() {
     rm -f "$fetched"
-    # Debian's wget of busybox has no time limit of its own.
-    said=$(timeout 900 wget -q -O "$fetched" -- "$1" 2>&1) && bundle=$fetched && return 0
+    said=$("$root/usr/local/lib/wallwarp/download" "$1" "$fetched" 9>&-) && bundle=$fetched && return 0
     said=${said##*wget: }
     free=$(free_mib)
     rm -f "$fetched"

@@ -40,6 +40,7 @@ make_root() {
             mkdir "$folder/expired" && cp "$folder"/keys/ca.* "$folder/expired/" &&
             END=20210101000000Z board/image/signing_key.sh "$folder/expired"
     } 2>/dev/null || exit 1
+    install -D board/image/tree/usr/local/lib/wallwarp/download "$WALLWARP_ROOT/usr/local/lib/wallwarp/download"
     sed "s/@BOARD@/front/" board/image/system.conf >"$WALLWARP_ROOT/etc/rauc/system.conf"
     bundle new front 2.0 keys
     bundle stranger front 2.0 stranger
@@ -54,9 +55,17 @@ make_root() {
     program systemctl <<<'echo "$@" >>$folder/systemctl'
     program wget <<<'to=${@: -3:1}; case ${@: -1} in
         */new) cp $folder/root/new "$to" ;;
+        */slow) : >$folder/slow; : >$folder/seconds
+            until [ $(wc -l <$folder/seconds) -ge 170 ]; do /bin/sleep 0.05; done
+            rm $folder/slow; /bin/sleep 0.2; cp $folder/root/new "$to" ;;
+        */stalled) echo part >"$to"; echo $$ >$folder/stalled; exec /bin/sleep 600 ;;
         */big) echo part >"$to"; : >$folder/full; echo "wget: short write" >&2; exit 1 ;;
         *) echo "wget: server returned error: HTTP/1.1 404 Not Found" >&2; exit 1 ;;
         esac'
+    # Of a slow download a byte comes at every fiftieth second, which is a short one.
+    program sleep <<<'/bin/sleep 0.01
+        echo >>$folder/seconds
+        [ ! -e $folder/slow ] || [ $(($(wc -l <$folder/seconds) % 50)) != 0 ] || echo >>$folder/root/data/update.raucb'
     program df <<<'echo "Filesystem 1K-blocks Used Available Use% Mounted on"
         if [ -e $folder/full ]; then echo "/dev/x 1000 1000 0 100% /data"; else echo "/dev/x 9999 0 9999 0% /data"; fi'
     program rauc <<<'case $1 in
@@ -67,7 +76,7 @@ make_root() {
         cp $folder/root/run/wallwarp/update/state $folder/state.began
         ls $folder/root/run/wallwarp/update >$folder/ls.began
         echo " 40% Copying image to root.1"
-        sleep 0.1; grep -q "^progress=40" $folder/root/run/wallwarp/update/state || sleep 1
+        /bin/sleep 0.1; grep -q "^progress=40" $folder/root/run/wallwarp/update/state || /bin/sleep 1
         cp $folder/root/run/wallwarp/update/state $folder/state.halfway
         [ ! -e $folder/altered ] || { echo "LastError: Failed updating slot root.1: Input/output error"; exit 1; }
         mkdir -p $folder/root/dev/disk/by-partlabel/root-b/usr/lib/wallwarp
@@ -187,6 +196,12 @@ ask "install http://host/new"
 says "from the network" state=ready waiting=2.0
 ask "install http://host/none"
 says "not in the network" state=failed "message=can't fetch http://host/none: *404*"
+ask "install http://host/slow"
+says "a slow one from the network" state=ready waiting=2.0
+ask "install http://host/stalled"
+says "a download that stalls" state=failed "message=can't fetch http://host/stalled: no byte has come for 60 s"
+! kill -0 "$(cat "$folder/stalled")" 2>/dev/null
+ok $? "a download that stalls has ended"
 ask "install http://host/big"
 says "no room" state=failed "message=the data partition is too full for http://host/big: 0 MiB are free"
 [ -z "$(ls "$WALLWARP_ROOT/data")" ]
