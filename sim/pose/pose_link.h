@@ -41,7 +41,8 @@ bool pose_link_check(const char *bus, char error[POSE_LINK_MESSAGE_LENGTH]);
 
 /**
  * Connect. A name with a colon is HOST:PORT (IPv6: [HOST]:PORT) of a socketcand server, whose bus is called can0;
- * a port where nobody listens yet is tried again for 5 s. Any other name is a SocketCAN interface.
+ * a port where nobody listens yet is tried again for 5 s, and who listens has 20 s to answer. Any other name is a
+ * SocketCAN interface.
  *
  * @param[out] link   Written only when true is returned; close it with pose_link_close().
  * @param      fd     CAN FD frames will be sent: refused with HOST:PORT and on an interface without FD.

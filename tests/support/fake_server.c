@@ -36,6 +36,10 @@ static void *serve(void *context)
     if (client < 0)
         return NULL;
     say(client, server->greeting);
+    if (server->answer == NULL) {
+        close(client);
+        return NULL;
+    }
     hear(server, client, false);
     say(client, server->answer);
     hear(server, client, false);

@@ -22,7 +22,7 @@ typedef struct {
  * heard until it leaves.
  *
  * @param greeting  What it is told when it comes,
- * @param answer    and after its first command.
+ * @param answer    and after its first command; NULL: it is sent away before that.
  */
 void fake_server_start(fake_server_t *server, const char *greeting, const char *answer);
 

@@ -94,6 +94,7 @@ static void test_servers_that_answer_wrongly_are_refused(void **state)
     (void)state;
     static const char *const TALK[][3] = {
         {"HTTP/1.1 200 >", "", "the answer to \"connect\" was \"HTTP/1.1 200 >\""},
+        {"", NULL, "no answer to \"connect\""},
         {"< hi >", "< error no such bus >", "the answer to \"< open can0 >\" was \"< error no such bus >\""},
     };
     for (size_t i = 0; i < sizeof TALK / sizeof TALK[0]; i++) {
