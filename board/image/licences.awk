@@ -2,7 +2,10 @@
 # Prints the SPDX description of what is in an image, from the list of debian.sh and the copyright files that packages
 # bring with them.
 #
-# usage: awk -v name=NAME -v created=TIME -v root=FOLDER -f board/image/licences.awk LIST
+# usage: awk -v name=NAME -v created=TIME -f board/image/licences.awk folder=FOLDER files=PATTERN place=PLACE LIST ...
+#
+# FOLDER/PATTERN is the copyright file of a package, whose name is for the pattern's %s; PLACE says where it is in the
+# image. The three may be others for each list.
 #
 # A copyright file in Debian's machine-readable form names a licence for each group of files; all of these are told, joined
 # by AND. SPDX's own names are used where they mean the same, LicenseRef- where not: the text is then in the copyright file,
@@ -70,13 +73,14 @@ BEGIN {
 
 # package version source source-version
 {
-    licence = declared(root "/usr/share/doc/" $1 "/copyright")
+    file = sprintf(files, $1)
+    licence = declared(folder "/" file)
     print "\n##### Package: " $1 "\n"
     print "PackageName: " $1 "\nSPDXID: SPDXRef-Package-" identifier($1) "\nPackageVersion: " $2
     print "PackageSupplier: Organization: Debian\nPackageDownloadLocation: NOASSERTION\nFilesAnalyzed: false"
     print "PackageSourceInfo: <text>source package " $3 " " $4 "</text>"
     print "PackageLicenseConcluded: NOASSERTION\nPackageLicenseDeclared: " licence
-    print "PackageLicenseComments: <text>/usr/share/doc/" $1 "/copyright in the image</text>"
+    print "PackageLicenseComments: <text>" file " in the image's " place "</text>"
     print "PackageCopyrightText: NOASSERTION"
     version = $2
     gsub(/:/, "%3A", version)
