@@ -7,8 +7,8 @@
 #include "firmware/update.h"
 
 enum {
-    CAN_ID_UPDATE = 0x680, /**< + node */
-    CAN_UPDATE_PERIOD_MS = 1000
+    CAN_ID_UPDATE = 0x680,      /**< + node */
+    CAN_UPDATE_PERIOD_MS = 1000 /**< and at once when state or plan is another */
 };
 
 /** What the board's update agent does. */

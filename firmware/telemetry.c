@@ -240,8 +240,17 @@ static void send_update(projector_t *p)
         .waiting = can_update_fingerprint(said->waiting),
     };
     t->update_counter = (uint8_t)((t->update_counter + 1) % CAN_E2E_P01_COUNTERS);
+    t->update_state = (uint8_t)update.state;
+    t->update_plan = (uint8_t)update.plan;
     hal_can_frame_t frame;
     send(p, can_update_encode(&frame, &update), &frame);
+}
+
+/* A board that switches is gone before the second is over. */
+static bool update_changed(const projector_t *p)
+{
+    return can_update_state_of(&p->update) != (can_update_state_t)p->telemetry.update_state ||
+           p->update.plan != (update_plan_t)p->telemetry.update_plan;
 }
 
 void telemetry_send(projector_t *projector, int64_t now_us)
@@ -275,7 +284,7 @@ void telemetry_send(projector_t *projector, int64_t now_us)
         t->counts_due_us = now_us + CAN_COUNTS_PERIOD_MS * 1000;
         send_counts(projector);
     }
-    if (now_us >= t->update_due_us) {
+    if (now_us >= t->update_due_us || update_changed(projector)) {
         t->update_due_us = now_us + CAN_UPDATE_PERIOD_MS * 1000;
         send_update(projector);
     }

@@ -16,11 +16,12 @@ typedef struct {
         update_due_us;
     uint8_t heartbeat_counter, status_counter, stage_counter, quality_counter, time_counter, step_counter,
         latency_counter, counts_counter, update_counter;
-    uint32_t fault_flags;    /**< of the newest heartbeat */
-    stage_t stage;           /**< the next to be sent */
-    stage_figures_t figures; /**< of the second that is being sent */
-    int64_t photon_sum_us;   /**< pose to photon of the pictures since the last Latency, */
-    int32_t photons;         /**< so many */
+    uint8_t update_state, update_plan; /**< of the newest Update */
+    uint32_t fault_flags;              /**< of the newest heartbeat */
+    stage_t stage;                     /**< the next to be sent */
+    stage_figures_t figures;           /**< of the second that is being sent */
+    int64_t photon_sum_us;             /**< pose to photon of the pictures since the last Latency, */
+    int32_t photons;                   /**< so many */
     uint32_t seen_bus, seen_bus_off, seen_display, seen_gpio, seen_watchdog, seen_deadline, seen_refused;
 } telemetry_t;
 
@@ -31,7 +32,8 @@ void telemetry_init(telemetry_t *telemetry, int64_t now_us);
 void telemetry_add_photon(telemetry_t *telemetry, int32_t pose_to_photon_us);
 
 /** Send what is due: Step at the contents that all boards report; status, stages, quality, time, latency, counts,
- *  update and heartbeat, each after its CAN_..._PERIOD_MS. Call it once a refresh. Never blocks. */
+ *  update and heartbeat, each after its CAN_..._PERIOD_MS, update also when its state or plan is another. Call it once
+ * a refresh. Never blocks. */
 void telemetry_send(projector_t *projector, int64_t now_us);
 
 /** Send the heartbeat alone, when it is due: for a board that can't do its work. */

@@ -2,6 +2,8 @@
 // Tests of a board's update: an operator has it install and switch.
 #include "tests/firmware/update_bench.h"
 
+enum { ONE_TURN_MS = 2000 / ROOM_BENCH_HZ }; /* so soon the bus tells of a change */
+
 static void test_install(void **state)
 {
     (void)state;
@@ -76,6 +78,8 @@ static void test_switch_without_confirmation_is_dropped(void **state)
     install();
     const uint64_t at_us = status().bus_time_us + 1500000;
     ask_update(COMMAND_UPDATE_SWITCH, at_us, "0.6", UPDATE_DONE);
+    room_bench_run(&bench, ONE_TURN_MS);
+    assert_int_equal(bench.voice[0].update.plan, UPDATE_PROMISED);
     room_bench_run(&bench, 2000);
     assert_true(switched_us(0) == INT64_MIN);
     assert_int_equal(status().plan, UPDATE_NO_PLAN);
@@ -119,8 +123,11 @@ static void test_switch_at_its_moment(void **state)
     const uint64_t at_us = switch_in(2000000);
     const int64_t local_us = projector()->update.switch_us, period_us = 1000000 / ROOM_BENCH_HZ;
     assert_int_equal(bus_time_from_local(&projector()->time.time, local_us), at_us);
-    room_bench_run(&bench, 2300);
+    room_bench_run(&bench, ONE_TURN_MS);
     assert_int_equal(bench.voice[0].update.plan, UPDATE_CONFIRMED);
+    room_bench_run(&bench, 2300);
+    assert_int_equal(bench.voice[0].update.state, CAN_UPDATE_SWITCHING);
+    assert_int_equal(bench.voice[0].update.plan, UPDATE_NO_PLAN);
     assert_in_range(switched_us(0), local_us, local_us + period_us);
     room_bench_run(&bench, 1000);
     const uint32_t frames = report()->frame_number;
