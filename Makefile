@@ -249,7 +249,7 @@ kernel_check = $(call emulated,$(1))build/variants/$(1)/check_kernels
 # SIMDe is slow without optimisation.
 levels       = scalar $(if $(filter %-O3,$(1)),neon)
 # These need what makes images, and are of test-image.
-IMAGE_TESTS  := $(addprefix tests/board/image/test_,boot_script.sh pi_modules.sh update_agent.sh)
+IMAGE_TESTS  := $(addprefix tests/board/image/test_,boot_script.sh bundle.sh modules.sh pi_modules.sh update_agent.sh)
 SCRIPTS      := $(filter-out tests/board/virtual/% $(IMAGE_TESTS),$(wildcard tests/*/test_*.sh tests/*/*/test_*.sh))
 # The scripts alone: some judge what programs do in real time.
 RUN_TESTS     = $(foreach t,$(TESTS),'$(t)') $(foreach v,$(KERNEL_VARIANTS),'$(call kernel_check,$(v))') \

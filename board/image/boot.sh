@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Gathers what a board starts with: the files of the card's first partition, and its kernel.
 #
-# usage: board/image/boot.sh BOARD DEBIAN OUT      writes OUT/boot, for the card, and OUT/boot.packages, the list of Debian's
-#                                                  in it; and OUT/kernel_tree, with boot/vmlinuz-* and lib/modules
+# usage: board/image/boot.sh BOARD DEBIAN OUT      writes OUT/boot, for the card, and OUT/boot.packages, Debian's
+#                                                  packages in it; OUT/kernel_tree, with boot/vmlinuz-* and lib/modules
 # A board whose loader or kernel Debian does not have names what it needs in board/BOARD/boot_files; that is taken from the
 # folder BOOT in the environment.
 set -eu
@@ -14,9 +14,8 @@ debian=$2
 out=$3
 list=$here/../$board/boot_files
 
-rm -rf "${out:?}/boot" "${out:?}/kernel_tree"
+rm -rf "${out:?}/boot" "${out:?}/boot.packages" "${out:?}/kernel_tree"
 mkdir -p "$out/boot"
-: >"$out/boot.packages"
 if [ ! -e "$list" ]; then
     ln -s "$(realpath "$debian/kernel")" "$out/kernel_tree"
     [ ! -e "$here/boot_$board.sh" ] || "$here/boot_$board.sh" "$debian" "$out/boot"

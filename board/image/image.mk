@@ -9,7 +9,7 @@ BOARD_FILES := $(shell find board/$(BOARD) -type f ! -name '*.md' ! -name '*.png
 BOOT_FILES  := $(call of_images,boot.sh $(notdir $(wildcard board/image/boot_$(BOARD).sh board/image/device_tree_$(BOARD).sh))) board/debian.sh \
                $(if $(BOOT),$(shell find '$(BOOT)' -type f))
 ROOT_FILES  := $(call of_images,root.sh root_without modules enabled_units update_files.sh update_agent.sh system.conf \
-               fw_env.config) $(shell find board/image/tree -type f) $(filter-out %.md %.yaml,$(wildcard board/service/*))
+               fw_env.config) LICENSE $(shell find board/image/tree -type f) $(filter-out %.md %.yaml,$(wildcard board/service/*))
 SLOT_FILES  := $(call of_images,slot.sh fat.sh init.sh cmdline) board/initramfs.sh
 CARD_FILES  := $(call of_images,image.sh fat.sh boot_script.sh boot.cmd) board/service/wallwarp.yaml
 
@@ -48,11 +48,9 @@ $(BUILD)/wallwarp-$(BOARD).img: $(PARTS)/root.squashfs $(PARTS)/kernel.vfat $(CA
 $(BUILD)/wallwarp-$(BOARD).img.xz: $(BUILD)/wallwarp-$(BOARD).img board/image/pack.sh
 	$(if $(V),,@echo "  XZ    $@")
 	$(Q)board/image/pack.sh $<
-$(BUILD)/wallwarp-$(BOARD).spdx: $(PARTS)/boot.made board/image/licences.awk
+$(BUILD)/wallwarp-$(BOARD).spdx: $(PARTS)/boot.made $(PARTS)/version $(call of_images,licences.sh licences.awk)
 	$(if $(V),,@echo "  SPDX  $@")
-	$(Q)awk -v name=wallwarp-$(BOARD) -v created="$$(date -u -d "@$$($(EPOCH))" +%Y-%m-%dT%H:%M:%SZ)" -f board/image/licences.awk \
-	    folder=build/image/root files=usr/share/doc/%s/copyright place=root build/image/packages \
-	    folder=$(PARTS)/boot files=copyright-%s.txt place='partition "card"' $(PARTS)/boot.packages >$@
+	$(Q)board/image/licences.sh $(BOARD) build/image $(PARTS) "$$(date -u -d "@$$($(EPOCH))" +%Y-%m-%dT%H:%M:%SZ)" >$@
 # Another certificate is another image, whichever file is newer.
 $(PARTS)/ca.pem: $(CA) FORCE
 	@mkdir -p $(@D)

@@ -77,6 +77,7 @@ copy_firmware() {
         # The number of a build tells of the folder that it was made in.
         aarch64-linux-gnu-strip -R .note.gnu.build-id "$root/usr/local/bin/$program"
     done
+    install -D -m 644 LICENSE "$root/usr/share/doc/wallwarp/copyright"
     install -D -m 644 -t "$root/etc/udev/rules.d" board/service/60-wallwarp.rules
     install -D -m 644 -t "$root/etc/systemd/network" board/service/80-wallwarp-can.network
     install -D -m 644 -t "$root/etc/systemd/system" board/service/wallwarp.service
