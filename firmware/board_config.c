@@ -125,3 +125,41 @@ bool board_config_load(board_config_t *config, const char *path, char error[ROOM
         *config = read;
     return good;
 }
+
+static void glimpse_name(char out[BOARD_CONFIG_NAME_LENGTH], const char *word)
+{
+    static const char usual[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789:/._-";
+    const size_t length = strlen(word);
+    if (out[0] == '\0' && length < BOARD_CONFIG_NAME_LENGTH && strspn(word, usual) == length)
+        memcpy(out, word, length + 1);
+}
+
+/* Of a key, one word, and maybe a comment. */
+static void glimpse_line(board_config_t *config, char *line)
+{
+    static const char blank[] = " \t\r\n";
+    char *rest = NULL, *end;
+    const char *key = strtok_r(line, blank, &rest), *word = key == NULL ? NULL : strtok_r(NULL, blank, &rest),
+               *more = word == NULL ? NULL : strtok_r(NULL, blank, &rest);
+    if (word == NULL || (more != NULL && more[0] != '#'))
+        return;
+    const long node = strcmp(key, "node:") == 0 ? strtol(word, &end, 10) : 0;
+    if (node >= 1 && node <= ROOM_MAX_NODE && *end == '\0' && config->node == 0)
+        config->node = (int32_t)node;
+    if (strcmp(key, "can:") == 0)
+        glimpse_name(config->can, word);
+    if (strcmp(key, "display:") == 0)
+        glimpse_name(config->display, word);
+}
+
+void board_config_glimpse(board_config_t *config, const char *path)
+{
+    enum { MOST_LINES = 1000, LINE_LENGTH = 1024 };
+    char line[LINE_LENGTH];
+    FILE *file = fopen(path, "r");
+    *config = (board_config_t){.node = 0};
+    for (int i = 0; file != NULL && i < MOST_LINES && fgets(line, sizeof line, file) != NULL; i++)
+        glimpse_line(config, line);
+    if (file != NULL)
+        (void)fclose(file);
+}

@@ -33,4 +33,12 @@ typedef struct {
  */
 bool board_config_load(board_config_t *config, const char *path, char error[ROOM_MESSAGE_LENGTH]);
 
+/**
+ * What a file that board_config_load() has refused still tells, for who has to say so on the wall and on the bus: node,
+ * can and display, each from the first line of its own that is right by itself, whatever is wrong with the others.
+ *
+ * @param[out] config  All else is left out, and so are these where no line tells, or the file can't be read.
+ */
+void board_config_glimpse(board_config_t *config, const char *path);
+
 #endif

@@ -20,10 +20,11 @@ bool setup_read_config(setup_t *setup, options_t *options, char error[ROOM_MESSA
 {
     if (options->config == NULL)
         return true;
-    if (!board_config_load(&setup->config, options->config, error))
-        return false;
+    const bool good = board_config_load(&setup->config, options->config, error);
+    if (!good)
+        board_config_glimpse(&setup->config, options->config);
     options_complete(options, &setup->config);
-    return true;
+    return good;
 }
 
 bool setup_read_room(setup_t *setup, const options_t *options, char error[ROOM_MESSAGE_LENGTH])

@@ -23,9 +23,10 @@ typedef struct {
  * Read what the options name, the configuration first; start-up only. Odd but workable things
  * are told on stderr.
  *
- * @param[in,out] options  setup_read_config() completes them from the configuration; without one, nothing is done.
- * @param[out]    error    On failure: one line, what was found where and what was expected. What the step would have
- *                         read is untouched.
+ * @param[in,out] options  setup_read_config() completes them from the configuration; without one, nothing is done; from
+ *                         a wrong one, with what board_config_glimpse() makes of it, to be able to say so.
+ * @param[out]    error    On failure: one line, what was found where and what was expected. What else the step would
+ *                         have read is untouched.
  */
 bool setup_read_config(setup_t *setup, options_t *options, char error[ROOM_MESSAGE_LENGTH]);
 bool setup_read_room(setup_t *setup, const options_t *options, char error[ROOM_MESSAGE_LENGTH]);

@@ -192,6 +192,42 @@ static void test_a_missing_file_is_refused(void **state)
                                   "configuration in YAML"));
 }
 
+/* Whatever else is wrong, a board is to say so with its node, on its bus and wall. */
+static void test_what_can_be_made_out_of_a_wrong_file(void **state)
+{
+    static const struct {
+        const char *text;
+        int32_t node;
+        const char *can, *display;
+    } wrong[] = {
+        {"node: 3\nroom: r\ncan: can1\ndisplay: HDMI-A-2\nNODE: 2\n", 3, "can1", "HDMI-A-2"},
+        {"node: 63 # of twelve\r\n  can: can1#\r\nroom: [r\r\n", 63, "", ""},
+        {" node:\t4\n\tcan: can1\n", 4, "can1", ""},
+        {"node: 0\nnode: 5\nnode: 6\ncan: \"can1\"\ncan: can2\ncan: can3\n", 5, "can2", ""},
+        {"node: 64\nnode: 7x\nnode: 99999999999999999999\nnode:\nnode\nnode: 1 2\nnodes: 1\n", 0, "", ""},
+        {"node: one\ncan: \x1b[2J\ndisplay: a\x7f\n", 0, "", ""},
+        {"", 0, "", ""},
+    };
+    char path[SCRATCH_PATH_LENGTH];
+    board_config_t config;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        write_config(*state, path, wrong[i].text);
+        memset(&config, 0x5a, sizeof config);
+        board_config_glimpse(&config, path);
+        if (config.node != wrong[i].node || strcmp(config.can, wrong[i].can) != 0 ||
+            strcmp(config.display, wrong[i].display) != 0)
+            fail_msg("made out node %d, can \"%s\", display \"%s\" of:\n%s", (int)config.node, config.can,
+                     config.display, wrong[i].text);
+        assert_string_equal(config.room, "");
+        assert_string_equal(config.key, "");
+        assert_string_equal(config.camera, "");
+        assert_int_equal(config.workers, 0);
+    }
+    scratch_path(*state, "none.yaml", path);
+    board_config_glimpse(&config, path);
+    assert_int_equal(config.node, 0);
+}
+
 static void test_the_command_line_wins(void **state)
 {
     char path[SCRATCH_PATH_LENGTH];
@@ -245,6 +281,7 @@ int main(void)
         cmocka_unit_test(test_what_is_wrong_is_refused),
         cmocka_unit_test(test_long_names_are_refused),
         cmocka_unit_test(test_a_missing_file_is_refused),
+        cmocka_unit_test(test_what_can_be_made_out_of_a_wrong_file),
         cmocka_unit_test(test_the_command_line_wins),
         cmocka_unit_test(test_the_boards_own_devices_stay),
     };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzzes the board's own file: any bytes are a sound configuration, or an error of one line and nothing read.
+// Fuzzes the board's own file: any bytes are a sound configuration, or an error of one line, nothing read,
+// and what is made out of them all the same is sound.
 #include "firmware/board_config.h"
 
 #include <string.h>
@@ -41,6 +42,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         for (size_t i = 0; i < sizeof config; i++)
             fuzz_check(byte[i] == UNTOUCHED, "a refused file leaves the configuration untouched");
         fuzz_check_line(error);
+        board_config_glimpse(&config, file.path);
+        fuzz_check(config.node >= 0 && config.node <= ROOM_MAX_NODE, "a node that was made out is in range");
+        check_text(config.can, sizeof config.can);
+        check_text(config.display, sizeof config.display);
     }
     input_file_close(&file);
     return 0;
