@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "hal/linux/check.h"
@@ -46,6 +47,16 @@ static int open_chip(int number, struct gpiochip_info *chip, char path[CHECK_WOR
     return -1;
 }
 
+/* By label or name; or a link in /dev has the name and leads to it. */
+static bool is_wanted(const char *wanted, int file, const struct gpiochip_info *chip)
+{
+    char link[CHECK_LINE_LENGTH];
+    struct stat target, own;
+    (void)snprintf(link, sizeof link, "/dev/%s", wanted);
+    return strcmp(chip->label, wanted) == 0 || strcmp(chip->name, wanted) == 0 ||
+           (stat(link, &target) == 0 && fstat(file, &own) == 0 && target.st_rdev == own.st_rdev);
+}
+
 void check_lines(check_t *check)
 {
     const char *wanted = check->table->lines.chip;
@@ -62,7 +73,7 @@ void check_lines(check_t *check)
         }
         if (file < 0)
             continue;
-        const bool found = strcmp(chip.label, wanted) == 0 || strcmp(chip.name, wanted) == 0;
+        const bool found = is_wanted(wanted, file, &chip);
         for (hal_gpio_line_t line = 0; found && line < HAL_GPIO_LINES; line++)
             check_line(check, file, &chip, line);
         close(file);
