@@ -2,6 +2,8 @@
 // Command-line arguments that the commands of wallwarp-sim share.
 #include "sim/options.h"
 
+#include <stdlib.h>
+
 #include "sim/program.h"
 
 const warp_kernels_t *options_kernels(struct argp_state *state, const char *text)
@@ -29,4 +31,13 @@ error_t options_room(const char **room, char *text, struct argp_state *state)
         argp_error(state, "found \"%s\", expected one room file", text);
     *room = text;
     return 0;
+}
+
+long options_whole(struct argp_state *state, const char *option, const char *text, long least, long most)
+{
+    char *end;
+    const long number = strtol(text, &end, 10);
+    if (end == text || *end != '\0' || number < least || number > most)
+        argp_error(state, "%s: found \"%s\", expected a whole number from %ld to %ld", option, text, least, most);
+    return number;
 }

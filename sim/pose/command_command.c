@@ -8,6 +8,7 @@
 #include "firmware/auth_key.h"
 #include "firmware/byte_order.h"
 #include "firmware/can_protocol.h"
+#include "sim/options.h"
 #include "sim/pose/board_answer.h"
 #include "sim/pose/board_talk.h"
 #include "sim/pose/command_options.h"
@@ -61,7 +62,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         options->node_given = true;
         options->node = 0;
         if (strcmp(argument, "all") != 0)
-            options->node = (int)command_whole(state, "--node", argument, 1, CAN_MAX_NODE);
+            options->node = (int)options_whole(state, "--node", argument, 1, CAN_MAX_NODE);
         return 0;
     case KEY_KEY:
         options->key = argument;

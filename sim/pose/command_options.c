@@ -36,15 +36,6 @@ double command_number(struct argp_state *state, const char *option, const char *
     return value;
 }
 
-long command_whole(struct argp_state *state, const char *option, const char *text, long least, long most)
-{
-    char *end;
-    const long value = strtol(text, &end, 10);
-    if (end == text || *end != '\0' || value < least || value > most)
-        argp_error(state, "%s: found \"%s\", expected a whole number from %ld to %ld", option, text, least, most);
-    return value;
-}
-
 int64_t command_seconds_us(struct argp_state *state, const char *option, const char *text)
 {
     return llround(command_number(state, option, text, 0.001, 1e6) * 1e6);

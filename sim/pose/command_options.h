@@ -21,9 +21,6 @@ void command_check_fd(struct argp_state *state, const char *bus, bool fd);
 /** @return A decimal number from least to most. @param option  For the message: "--speed". */
 double command_number(struct argp_state *state, const char *option, const char *text, double least, double most);
 
-/** @return A whole number from least to most. */
-long command_whole(struct argp_state *state, const char *option, const char *text, long least, long most);
-
 /** @return Seconds as us: 0.001 to 10^6 s. */
 int64_t command_seconds_us(struct argp_state *state, const char *option, const char *text);
 

@@ -7,6 +7,7 @@
 
 #include "firmware/auth_key.h"
 #include "firmware/can_protocol.h"
+#include "sim/options.h"
 #include "sim/pose/command_options.h"
 #include "sim/pose/commands.h"
 #include "sim/pose/motion.h"
@@ -50,7 +51,7 @@ static error_t parse_motion(int key, char *argument, struct argp_state *state)
         options->motion_option = "--at";
         return 0;
     case KEY_SEED:
-        options->motion.seed = (uint64_t)command_whole(state, "--seed", argument, 0, INT_MAX);
+        options->motion.seed = (uint64_t)options_whole(state, "--seed", argument, 0, INT_MAX);
         options->motion_option = "--seed";
         return 0;
     default:
@@ -93,10 +94,10 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         options->no_sync = true;
         return 0;
     case 'v':
-        options->viewer = (uint8_t)command_whole(state, "--viewer", argument, 0, CAN_VIEWERS - 1);
+        options->viewer = (uint8_t)options_whole(state, "--viewer", argument, 0, CAN_VIEWERS - 1);
         return 0;
     case 't':
-        options->tracker = (uint8_t)command_whole(state, "--tracker", argument, 0, MOST_TRACKER);
+        options->tracker = (uint8_t)options_whole(state, "--tracker", argument, 0, MOST_TRACKER);
         return 0;
     case ARGP_KEY_ARG:
         if (options->source != NULL)

@@ -83,7 +83,7 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         return 0;
     case KEY_IN:
         options->ahead_given = true;
-        options->ahead_us = US_PER_S * (int64_t)command_whole(state, "--in", argument,
+        options->ahead_us = US_PER_S * (int64_t)options_whole(state, "--in", argument,
                                                               ROOM_UPDATE_LEAST_AHEAD_US / US_PER_S, MOST_AHEAD_S);
         return 0;
     case KEY_SWITCH:

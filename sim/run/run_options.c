@@ -3,7 +3,6 @@
 #include "sim/run/run_options.h"
 
 #include <argp.h>
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,17 +27,6 @@ enum {
     KEY_JUDGE,
     KEY_KEY
 };
-
-/* A whole number in a range, or the end of the program as bad usage. */
-static int32_t read_number(struct argp_state *state, const char *name, const char *text, long least, long most)
-{
-    char *end;
-    errno = 0;
-    const long number = strtol(text, &end, 10);
-    if (end == text || *end != '\0' || errno != 0 || number < least || number > most)
-        argp_error(state, "--%s: found \"%s\", expected a whole number from %ld to %ld", name, text, least, most);
-    return (int32_t)number;
-}
 
 static double read_rate(struct argp_state *state, const char *text)
 {
@@ -109,13 +97,13 @@ static error_t read_run(int key, char *text, struct argp_state *state)
         run->poses = text;
         return 0;
     case KEY_BUS:
-        run->bus_port = read_number(state, "bus", text, 0, 65535);
+        run->bus_port = (int32_t)options_whole(state, "--bus", text, 0, 65535);
         return 0;
     case KEY_OUT:
         run->out = text;
         return 0;
     case KEY_FRAMES:
-        run->frames = read_number(state, "frames", text, 1, SIM_RUN_MAX_FRAMES);
+        run->frames = (int32_t)options_whole(state, "--frames", text, 1, SIM_RUN_MAX_FRAMES);
         return 0;
     case KEY_KEY:
         run->key = text;
@@ -142,7 +130,7 @@ static error_t read_run(int key, char *text, struct argp_state *state)
         run->original = text;
         return 0;
     case KEY_JUDGE:
-        run->judge = read_number(state, "judge", text, 0, SIM_RUN_MAX_FRAMES);
+        run->judge = (int32_t)options_whole(state, "--judge", text, 0, SIM_RUN_MAX_FRAMES);
         return 0;
     case ARGP_KEY_ARG:
         return options_room(&run->room, text, state);

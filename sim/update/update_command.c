@@ -3,8 +3,6 @@
 #include "sim/update/update_command.h"
 
 #include <argp.h>
-#include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "sim/options.h"
@@ -36,16 +34,6 @@ static const struct argp_option option_table[] = {
     {0},
 };
 
-static long read_whole(struct argp_state *state, const char *name, const char *text, long least, long most)
-{
-    char *end;
-    errno = 0;
-    const long number = strtol(text, &end, 10);
-    if (end == text || *end != '\0' || errno != 0 || number < least || number > most)
-        argp_error(state, "--%s: found \"%s\", expected a whole number from %ld to %ld", name, text, least, most);
-    return number;
-}
-
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     options_t *options = state->input;
@@ -57,19 +45,20 @@ static error_t parse(int key, char *text, struct argp_state *state)
         options->fail[options->fails++] = text;
         return 0;
     case KEY_INSTALL:
-        play->install_us = US_PER_S * read_whole(state, "install", text, 1, 600);
+        play->install_us = US_PER_S * options_whole(state, "--install", text, 1, 600);
         return 0;
     case KEY_REBOOT:
-        play->reboot_us = US_PER_S * read_whole(state, "reboot", text, 1, 60);
+        play->reboot_us = US_PER_S * options_whole(state, "--reboot", text, 1, 60);
         return 0;
     case KEY_IN:
-        play->ahead_us = US_PER_S * read_whole(state, "in", text, ROOM_UPDATE_LEAST_AHEAD_US / US_PER_S, 59);
+        play->ahead_us = US_PER_S * options_whole(state, "--in", text, ROOM_UPDATE_LEAST_AHEAD_US / US_PER_S,
+                                                  UPDATE_MOST_AHEAD_US / US_PER_S - 1);
         return 0;
     case KEY_LOSE:
-        play->lose_ppm = (uint32_t)(10000 * read_whole(state, "lose", text, 0, 50));
+        play->lose_ppm = (uint32_t)(10000 * options_whole(state, "--lose", text, 0, 50));
         return 0;
     case KEY_SEED:
-        play->seed = (uint64_t)read_whole(state, "seed", text, 0, 1000000000);
+        play->seed = (uint64_t)options_whole(state, "--seed", text, 0, 1000000000);
         return 0;
     case KEY_OUT:
         options->out = text;
