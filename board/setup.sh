@@ -50,7 +50,7 @@ go_on_without_apt() {
     case $group in
     test | bench) tools="$tools clang python3" ;;
     board) tools="$tools mmdebstrap aarch64-linux-gnu-g++ qemu-system-aarch64 modprobe cpio" ;;
-    image) tools="$tools mmdebstrap aarch64-linux-gnu-g++ modprobe cpio mke2fs mkimage systemd-sysusers" ;;
+    image) tools="$tools mmdebstrap aarch64-linux-gnu-g++ modprobe cpio mke2fs mkimage dtc openssl rauc systemd-sysusers" ;;
     esac
     case $group in
     test | bench | flash | image) tools="$tools bmaptool sfdisk mcopy mkfs.vfat debugfs mksquashfs xz" ;;

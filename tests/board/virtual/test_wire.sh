@@ -59,7 +59,7 @@ test_requests() {
     ok $? "$2, command hello: $said"
     reply=$(vm_run "isotprecv -s 601 -d 641 $1 >/share/reply & sleep 0.2; echo 01 | isotpsend -s 601 -d 7FF -p CC:CC $1
         for i in 1 2 3 4 5 6 7 8 9 10; do [ -s /share/reply ] && break; sleep 0.2; done; kill \$! 2>/dev/null; cat /share/reply")
-    text=$(xxd -r -p <<<"${reply:21}")
+    text=$(printf %b "$(sed 's/ *$//; s/ *\(..\)/\\x\1/g' <<<"${reply:21}")")
     [[ $reply == '81 00 01 '* && -n $text && $said == *"$text"* ]]
     ok $? "$2, hello over the kernel's ISO-TP: heard $reply, $text; the tool heard: $said"
     said=$(vm_run "/tree/$build/wallwarp-pose command method mean+cubic --bus $1 --node 1 && sleep 1.2") &&
