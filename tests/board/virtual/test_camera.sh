@@ -94,7 +94,8 @@ even() {
     local end
     end=$(grep '^end' "$VM/share/$1")
     echo "$1: $end"
-    awk -v kb="$2" -v bytes="$3" '/^end/ { exit !($9 > 0 && $11 - $9 <= kb && $15 - $13 <= bytes) }' <<<"$end"
+    awk -v kb="$2" -v bytes="$3" '/^end/ { even = $9 > 0 && $11 - $9 <= kb && $15 - $13 <= bytes } END { exit !even }' \
+        <<<"$end"
     ok $? "memory of $1 grew"
 }
 
