@@ -173,7 +173,7 @@ programs: $(PROGRAMS:%=$(BUILD)/%) ## Build them, and install nothing
 setup-demo setup-test setup-bench setup-board setup-flash setup-image:
 	$(Q)board/setup.sh $(@:setup-%=%)
 
-build/sysroot.made: board/sysroot.sh
+build/sysroot.made: board/sysroot.sh board/debian.sh
 	$(if $(V),,@echo "  ROOT  build/sysroot")
 	$(Q)board/sysroot.sh build/sysroot
 	$(Q)touch $@
