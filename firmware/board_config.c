@@ -58,12 +58,11 @@ static bool check_text(const checker_t *checker, const char *key, const char *te
         return true;
     const size_t line = room_places_line(checker->places, key), length = strlen(folder) + strlen(text);
     if (text[0] == '\0')
-        return room_refuse(checker->report, line, key, "found \"\", expected a name, or the key left out");
+        return room_refuse(checker->report, line, key, "found \"\", expected a name");
     for (const char *c = text; *c != '\0'; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f)
             return room_refuse(checker->report, line, key,
-                               "found a line end or another control character, expected "
-                               "a name");
+                               "found a line end or another control character, expected a name");
     if (length >= size)
         return room_refuse(checker->report, line, key, "found a name of %zu bytes%s, expected %zu at most", length,
                            folder[0] == '\0' ? "" : " with its folder", size - 1);

@@ -20,8 +20,7 @@ typedef struct {
 } setup_t;
 
 /**
- * Read what the options name, the configuration first; start-up only. Odd but workable things
- * are told on stderr.
+ * Read what the options name, the configuration first; start-up only. Odd but workable things are told on stderr.
  *
  * @param[in,out] options  setup_read_config() completes them from the configuration; without one, nothing is done; from
  *                         a wrong one, with what board_config_glimpse() makes of it, to be able to say so.

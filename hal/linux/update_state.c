@@ -42,7 +42,7 @@ static bool read_percent(int32_t *percent, word_t value)
 /* None, or a version. */
 static bool read_version(char version[HAL_UPDATE_VERSION_LENGTH], word_t value)
 {
-    if (value.length >= HAL_UPDATE_VERSION_LENGTH || memchr(value.text, '\0', value.length) != NULL)
+    if (value.length >= HAL_UPDATE_VERSION_LENGTH)
         return false;
     memset(version, 0, HAL_UPDATE_VERSION_LENGTH);
     memcpy(version, value.text, value.length);

@@ -109,8 +109,7 @@ static void begin_switch(room_update_t *u, int64_t now_us)
     }
 }
 
-/* Ask those again that are silent, when nothing else is in the way. @return false when something is, or none is silent.
- */
+/* Ask those again that are silent. @return false when none is, or something else is in the way. */
 static bool ask_silent_again(room_update_t *u, command_update_t what)
 {
     int silent = 0, others = 0;

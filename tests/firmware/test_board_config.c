@@ -139,7 +139,7 @@ static void test_what_is_wrong_is_refused(void **state)
         {"node: 1\n", "1: room: missing, expected a text"},
         {"room: r\n", "1: node: missing, expected a whole number"},
         {"node: 1\nroom: [r]\n", "2: room: found a list of 1, expected a text"},
-        {"node: 1\nroom: \"\"\n", "2: room: found \"\", expected a name, or the key left out"},
+        {"node: 1\nroom: \"\"\n", "2: room: found \"\", expected a name"},
         {"node: 1\nroom: r\ncan: \"a\\nb\"\n",
          "3: can: found a line end or another control character, expected a name"},
         {"node: 1\nroom: r\ncan: \"\\x1b[2J\"\n",
