@@ -44,15 +44,6 @@ static bool request_waits(const hal_update_t *u)
     return lstat(u->request, &about) == 0;
 }
 
-/* @return Bytes read, -1 when the file is no regular one, or can't be read. */
-static ssize_t read_all(int file, char *bytes, size_t most)
-{
-    struct stat about;
-    if (fstat(file, &about) != 0 || !S_ISREG(about.st_mode))
-        return -1;
-    return read(file, bytes, most);
-}
-
 hal_status_t hal_update_state(hal_update_t *u, hal_update_state_t *state)
 {
     char text[UPDATE_STATE_BYTES + 2];
@@ -63,7 +54,7 @@ hal_status_t hal_update_state(hal_update_t *u, hal_update_state_t *state)
     const int file = open(u->state, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
     if (file < 0)
         return errno == ENOENT ? HAL_EMPTY : HAL_IO;
-    const ssize_t length = read_all(file, text, sizeof text - 1);
+    const ssize_t length = read(file, text, sizeof text - 1);
     (void)close(file);
     if (length < 0 || length > UPDATE_STATE_BYTES || memchr(text, '\0', (size_t)length) != NULL)
         return HAL_IO;

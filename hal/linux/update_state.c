@@ -99,7 +99,7 @@ bool update_folder_read_state(hal_update_state_t *state, const char *text)
     }
     if (read.doing == HAL_UPDATE_DOINGS)
         return false;
-    if (read.other[0] == '\0' && read.doing == HAL_UPDATE_READY)
+    if (read.other[0] == '\0')
         memcpy(read.other, read.waiting, sizeof read.other);
     *state = read;
     return true;

@@ -116,7 +116,7 @@ static void take_request(hal_update_t *u)
     else if (request == SWITCH)
         begin_switch(u);
     else
-        u->state.trial = false;
+        u->state.trial = u->state.trial && u->faults.good;
 }
 
 static void go_on_installing(hal_update_t *u)

@@ -29,6 +29,7 @@ typedef struct {
 typedef struct {
     bool install; /**< installs fail at their end */
     bool start;   /**< a version that is on trial does not start */
+    bool good;    /**< the mark can't be written: the version stays on trial */
 } sim_update_faults_t;
 
 /** @return NULL with the reason in error: bad settings, or no memory. Uses the heap. @param now_us  As below. */

@@ -79,6 +79,9 @@ static void test_state_is_read(void **state)
     assert_string_equal(read.waiting, "0.6-rc1");
     assert_string_equal(read.other, "0.6-rc1");
     assert_false(read.trial);
+    say("state=failed\nwaiting=0.6\n");
+    assert_int_equal(hal_update_state(agent.update, &read), HAL_OK);
+    assert_string_equal(read.other, "0.6");
 }
 
 static void assert_untouched(const hal_update_state_t *read)
@@ -132,10 +135,13 @@ static void test_long_message_is_cut(void **state)
 {
     (void)state;
     hal_update_state_t read;
-    char text[400] = "state=failed\nmessage=";
-    memset(text + strlen(text), 'm', 300);
-    assert_true(update_folder_read_state(&read, text));
-    assert_int_equal(strlen(read.message), HAL_UPDATE_MESSAGE_LENGTH - 1);
+    for (int length = HAL_UPDATE_MESSAGE_LENGTH - 2; length < 300; length++) {
+        char text[400] = "state=failed\nmessage=";
+        memset(text + strlen(text), 'm', (size_t)length);
+        assert_true(update_folder_read_state(&read, text));
+        assert_int_equal(strlen(read.message),
+                         length < HAL_UPDATE_MESSAGE_LENGTH ? length : HAL_UPDATE_MESSAGE_LENGTH - 1);
+    }
 }
 
 static void test_no_agent(void **state)
@@ -160,6 +166,9 @@ static void test_what_is_no_file_does_not_block(void **state)
     assert_int_equal(mkfifo(agent.state, 0600), 0);
     assert_int_equal(hal_update_state(agent.update, &read), HAL_IO);
     assert_int_equal(unlink(agent.state), 0);
+    assert_int_equal(mkdir(agent.state, 0700), 0);
+    assert_int_equal(hal_update_state(agent.update, &read), HAL_IO);
+    assert_int_equal(rmdir(agent.state), 0);
     scratch_write(elsewhere, "state=idle\n", 11);
     assert_int_equal(symlink(elsewhere, agent.state), 0);
     assert_int_equal(hal_update_state(agent.update, &read), HAL_IO);
@@ -179,6 +188,9 @@ static void test_one_request_at_a_time(void **state)
     assert_int_equal(hal_update_switch(agent.update), HAL_OK);
     expect_request("switch\n");
     assert_int_equal(hal_update_good(agent.update), HAL_OK);
+    assert_int_equal(hal_update_install(agent.update, "/a.raucb"), HAL_FULL);
+    expect_request("good\n");
+    assert_int_equal(hal_update_good(agent.update), HAL_OK); /* nothing of the longer one is left */
     expect_request("good\n");
 }
 
