@@ -2,6 +2,7 @@
 // The room file: camera, boards with their walls, and the bus.
 #include "firmware/room.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -54,4 +55,13 @@ const room_board_t *room_board_with_node(const room_t *room, int32_t node)
         if (room->board[b].node == node)
             return &room->board[b];
     return NULL;
+}
+
+void room_nodes(const room_t *room, char text[ROOM_NODES_LENGTH])
+{
+    size_t length = 0;
+    text[0] = '\0';
+    for (int32_t b = 0; b < room->board_count; b++)
+        length += (size_t)snprintf(text + length, ROOM_NODES_LENGTH - length, "%s%d", b == 0 ? "" : ", ",
+                                   room->board[b].node);
 }

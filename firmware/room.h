@@ -19,6 +19,7 @@ enum {
     ROOM_VIEWERS = 4,
     ROOM_NAME_LENGTH = 32,
     ROOM_MESSAGE_LENGTH = 512,
+    ROOM_NODES_LENGTH = 256, /**< of room_nodes(): 63 of "63, " */
     ROOM_MOST_DISPLAY_MS = 200
 };
 
@@ -69,5 +70,8 @@ const room_board_t *room_board_named(const room_t *room, const char *name);
 
 /** @return The board with that node number, or NULL. */
 const room_board_t *room_board_with_node(const room_t *room, int32_t node);
+
+/** Write the node numbers of all boards as text, in the file's order: "1, 2, 5". */
+void room_nodes(const room_t *room, char text[ROOM_NODES_LENGTH]);
 
 #endif

@@ -32,8 +32,12 @@ bool setup_read_room(setup_t *setup, const options_t *options, char error[ROOM_M
     if (!room_load(&setup->room, options->room, print_warning, NULL, error))
         return false;
     setup->board = room_board_with_node(&setup->room, options->node);
-    if (setup->board == NULL)
-        (void)snprintf(error, ROOM_MESSAGE_LENGTH, "%s: no board has node %d", options->room, options->node);
+    if (setup->board == NULL) {
+        char nodes[ROOM_NODES_LENGTH];
+        room_nodes(&setup->room, nodes);
+        (void)snprintf(error, ROOM_MESSAGE_LENGTH, "%.200s: no board has node %d, expected one of %.255s",
+                       options->room, options->node, nodes);
+    }
     return setup->board != NULL;
 }
 

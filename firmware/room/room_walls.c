@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-enum { MAX_RESIDUAL_UM = 5000, MAX_SKEW_MDEG = 1000 };
+enum { MAX_RESIDUAL_UM = 5000, MAX_SKEW_MDEG = 1000, LEAST_DIAGONAL_UM = 50000 };
 
 typedef struct {
     double um[3];
@@ -58,6 +58,16 @@ static bool looks_mirrored(const room_t *room, int32_t b)
     return along > 0.1 * normal_length * distance;
 }
 
+/* From the second corner to the fourth. */
+static double diagonal_um(const wall_corners_t *corners)
+{
+    const point_t right = corner_of(corners, 1), down = corner_of(corners, 3);
+    double length = 0.0;
+    for (int axis = 0; axis < 3; axis++)
+        length = hypot(length, right.um[axis] - down.um[axis]);
+    return length;
+}
+
 static bool all_known(const wall_corners_t *corners)
 {
     return corners->corner_known[0] && corners->corner_known[1] && corners->corner_known[2] && corners->corner_known[3];
@@ -66,6 +76,11 @@ static bool all_known(const wall_corners_t *corners)
 static void warn_of_fit(const room_report_t *report, size_t line, const char *key, const room_board_t *board)
 {
     const wall_t *wall = &board->wall;
+    const double across_um = diagonal_um(&board->corners);
+    if (across_um < LEAST_DIAGONAL_UM)
+        room_warn(report, line, key,
+                  "the wall is %.3g mm from corner to corner: are these metres?, expected millimetres",
+                  across_um / 1000.0);
     if (wall->worst_um > MAX_RESIDUAL_UM)
         room_warn(report, line, key,
                   "a point lies %.1f mm off the plane through all (rms %.1f mm), expected at most %d mm",

@@ -27,7 +27,7 @@ expect 0 "found    room: $room, node 1, \"front\"" --check $room --node 1
 expect 0 'found    camera: pattern, 960x540' --check $room --node 1
 expect 0 'found    camera: sim/demo/studio_960x540.png' --check --camera nv12:sim/demo/studio_960x540.png
 expect 1 'missing  room: nowhere.yaml' --check nowhere.yaml --node 1
-expect 1 "missing  room: $room: no board has node 7" --check $room --node 7
+expect 1 "missing  room: $room: no board has node 7, expected one of 1, 2, 3, 4" --check $room --node 7
 expect 1 'missing  can: found "can0", expected a port' --check --can can0
 expect 1 'missing  camera: nowhere.png' --check --camera nowhere.png
 expect 1 'missing  camera: tests/images/studio_480x270.png' --check $room --node 1 --camera tests/images/studio_480x270.png

@@ -90,7 +90,7 @@ test_wrong_node() {
     cp $room "$scratch/room.yaml"
     configure 'node: 9' 'room: room.yaml'
     start --config wallwarp.yaml
-    wall_shows "wrong node" 1280 800 9 host "$scratch/room.yaml: no board has node 9"
+    wall_shows "wrong node" 1280 800 9 host "$scratch/room.yaml: no board has node 9, expected one of 1, 2, 3, 4"
     heard "wrong node" '^ *9  fault .* 0x200 '
     end "wrong node" 0
 }

@@ -186,6 +186,9 @@ static void test_boards_are_found_by_name_and_node(void **state)
     assert_null(room_board_named(&room, "w2"));
     assert_null(room_board_with_node(&room, 0));
     assert_null(room_board_with_node(&room, 25));
+    char nodes[ROOM_NODES_LENGTH];
+    room_nodes(&room, nodes);
+    assert_string_equal(nodes, "1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24");
 }
 
 static void test_odd_walls_are_warned_of(void **state)
@@ -200,6 +203,8 @@ static void test_odd_walls_are_warned_of(void **state)
          "6: boards[0].wall.corners_mm: mirrored as seen from the other walls"},
         {LEFT_CORNERS, "        [[-2000, -1125, 0], [-2000, -1125, -4000], [-2000, 1125, -4000], [-2000, 1125, 0]]\n",
          "18: boards[1].wall.corners_mm: mirrored as seen from the other walls"},
+        {FRONT_CORNERS, "[[-2, -1.125, 0], [2, -1.125, 0], null, [-2, 1.125, 0]]",
+         "6: boards[0].wall.corners_mm: the wall is 4.59 mm from corner to corner: are these metres?"},
     };
     char path[SCRATCH_PATH_LENGTH], expected[MAX_TEXT];
     scratch_path(*state, "odd.yaml", path);

@@ -172,11 +172,12 @@ test_firmware() {
     refuses 2 "scalar or neon" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --kernels sse
     refuses 2 "1 to 4" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --workers 5
     refuses 2 "one room file" "$build/wallwarp" "$scratch/fd.yaml" "$scratch/fd.yaml" --node 1
-    refuses 1 "no board has node 9" "$build/wallwarp" "$scratch/fd.yaml" --node 9
+    refuses 1 "no board has node 9, expected one of 1, 2" "$build/wallwarp" "$scratch/fd.yaml" --node 9
     refuses 1 "missing.yaml" "$build/wallwarp" "$scratch/missing.yaml" --node 1
     refuses 1 "missing.png" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --can 0 --camera "$scratch/missing.png"
     refuses 1 "port" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --can vcan0
     refuses 1 "folder" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --can 0 --display "$scratch/fd.yaml/x"
+    refuses 1 "is not a folder" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --can 0 --display "$scratch/fd.yaml"
     refuses 1 "expected xrgb8888, nv12 or yuyv" "$build/wallwarp" "$scratch/fd.yaml" --node 1 --can 0 --display uyvy:none
 }
 
