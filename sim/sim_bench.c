@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // One board on the bench: hal_board_open() for a firmware that runs by itself on this machine, in real time.
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "hal/hal_board.h"
 #include "sim/bus/sim_bus.h"
@@ -16,6 +14,7 @@
 #include "sim/devices/sim_gpio.h"
 #include "sim/devices/sim_service.h"
 #include "sim/devices/sim_watchdog.h"
+#include "sim/files/folder.h"
 #include "sim/files/png_file.h"
 
 enum { WATCHDOG_US = 2000000, PICTURE_PERIOD_US = 1000000, LAST_PORT = 65535 };
@@ -39,7 +38,8 @@ typedef struct {
     video_t *video;
     const char *folder; /**< for pictures; NULL for none */
     int64_t picture_due_us;
-    bool camera_failed; /**< and that has been told */
+    bool camera_failed;  /**< and that has been told */
+    bool display_failed; /**< likewise: the newest picture could not be written */
 } bench_t;
 
 static void write_picture(bench_t *b, int64_t now_us)
@@ -53,10 +53,12 @@ static void write_picture(bench_t *b, int64_t now_us)
     char error[FILE_ERROR_LENGTH];
     b->picture_due_us = now_us + PICTURE_PERIOD_US;
     const int length = snprintf(path, sizeof path, "%s/display.png", b->folder);
-    if (length < 0 || (size_t)length >= sizeof path)
-        fprintf(stderr, "wallwarp: display: the folder's name is too long\n");
-    else if (!png_file_write(path, shown, error))
+    const bool written = length >= 0 && (size_t)length < sizeof path
+                             ? png_file_write(path, shown, error)
+                             : file_error(error, b->folder, "the folder's name is too long");
+    if (!written && !b->display_failed)
         fprintf(stderr, "wallwarp: display: %s\n", error);
+    b->display_failed = !written;
 }
 
 /* Between two steps of the firmware: let the world around the board go on. */
@@ -134,8 +136,8 @@ static bool open_display(bench_t *b, const board_table_t *table, const hal_board
     const char *name = table->display;
     const picture_format_t format = sim_picture_take_format(&name);
     b->folder = strcmp(name, "none") == 0 ? NULL : name;
-    if (b->folder != NULL && mkdir(b->folder, 0777) != 0 && errno != EEXIST)
-        return file_error(error, b->folder, "can't make the folder for pictures: %s", strerror(errno));
+    if (b->folder != NULL && !folder_make(b->folder, error))
+        return false;
     const sim_display_settings_t settings = {
         .width = needs->panel_width,
         .height = needs->panel_height,
