@@ -14,6 +14,7 @@
 enum { COLUMNS = 1 + POSE_TEXT_FIELDS, LONGEST_LINE = 1000, TIME_PLACES = 6 };
 
 static const char header[] = "time_s,x_mm,y_mm,z_mm,qw,qx,qy,qz";
+static const char byte_order_mark[] = "\xEF\xBB\xBF"; /* of UTF-8, which spreadsheets put first */
 static const int64_t latest_us = INT64_C(10000000000000000);
 
 typedef struct {
@@ -120,9 +121,12 @@ static bool read_all(reader_t *reader)
     int got = next_line(reader);
     if (got < 0)
         return false;
-    if (got == 0 || strcmp(reader->line, header) != 0) {
+    const char *line = got == 0 ? "" : reader->line;
+    if (strncmp(line, byte_order_mark, strlen(byte_order_mark)) == 0)
+        line += strlen(byte_order_mark);
+    if (strcmp(line, header) != 0) {
         reader->line_number = 1;
-        return fail(reader, "found \"%.60s\", expected the header %s", got == 0 ? "" : reader->line, header);
+        return fail(reader, "found \"%.60s\", expected the header %s", line, header);
     }
     while ((got = next_line(reader)) > 0) {
         pose_list_entry_t entry;

@@ -47,6 +47,18 @@ static void test_a_good_list_is_read(void **state)
     assert_int_equal(list.count, 0);
 }
 
+static void test_a_byte_order_mark_is_passed_over(void **state)
+{
+    (void)state;
+    static const char TEXT[] = "\xEF\xBB\xBFtime_s,x_mm,y_mm,z_mm,qw,qx,qy,qz\n0,1,2,3,1,0,0,0\n";
+    pose_list_t list;
+    char error[POSE_LIST_MESSAGE_LENGTH] = "";
+    if (!load(&list, TEXT, strlen(TEXT), error))
+        fail_msg("%s", error);
+    assert_int_equal(list.count, 1);
+    pose_list_free(&list);
+}
+
 static void test_a_long_list_is_read(void **state)
 {
     (void)state;
@@ -130,11 +142,9 @@ static void test_missing_files_and_folders_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_good_list_is_read),
-        cmocka_unit_test(test_a_long_list_is_read),
-        cmocka_unit_test(test_bad_lists_are_refused_with_their_place),
-        cmocka_unit_test(test_binary_files_are_refused),
-        cmocka_unit_test(test_missing_files_and_folders_are_refused),
+        cmocka_unit_test(test_a_good_list_is_read),      cmocka_unit_test(test_a_byte_order_mark_is_passed_over),
+        cmocka_unit_test(test_a_long_list_is_read),      cmocka_unit_test(test_bad_lists_are_refused_with_their_place),
+        cmocka_unit_test(test_binary_files_are_refused), cmocka_unit_test(test_missing_files_and_folders_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
