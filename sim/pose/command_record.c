@@ -82,7 +82,8 @@ int command_record(int argc, char **argv)
 
     record_t record = {.file = options.path == NULL ? stdout : fopen(options.path, "wxe")};
     if (record.file == NULL) {
-        fprintf(stderr, "%s: %s: %s\n", argv[0], options.path, strerror(errno));
+        fprintf(stderr, "%s: %s: %s%s\n", argv[0], options.path, strerror(errno),
+                errno == EEXIST ? "; no log is overwritten, expected another name" : "");
         return PROGRAM_FAILED;
     }
     const bus_listen_t listen = {
@@ -106,7 +107,7 @@ int command_record(int argc, char **argv)
             (void)remove(options.path);
         return PROGRAM_FAILED;
     }
-    fprintf(stderr, "%" PRId64 " frames recorded%s%s\n", record.frames, end == BUS_LISTEN_ENDED ? "; " : "",
-            end == BUS_LISTEN_ENDED ? error : "");
+    fprintf(stderr, "%" PRId64 " frames %s%s%s\n", record.frames, written ? "recorded" : "heard",
+            end == BUS_LISTEN_ENDED ? "; " : "", end == BUS_LISTEN_ENDED ? error : "");
     return written ? PROGRAM_DONE : PROGRAM_FAILED;
 }

@@ -90,7 +90,7 @@ test_bad_usage() {
     refuses 2 "would hear itself" "$build/wallwarp-pose" fault --bus can0 --from can0
     refuses 2 "--drop: found \"101\", expected a number from 0 to 100" "$build/wallwarp-pose" fault --bus can0 --drop 101
     echo mine >"$scratch/mine.log"
-    refuses 1 "mine.log: File exists" "$build/wallwarp-pose" record --bus 127.0.0.1:1 "$scratch/mine.log"
+    refuses 1 "mine.log: File exists; no log is overwritten" "$build/wallwarp-pose" record --bus 127.0.0.1:1 "$scratch/mine.log"
     [ "$(cat "$scratch/mine.log")" = mine ]
     check "a log that exists is kept" $?
     refuses 1 "no_such_can" "$build/wallwarp-pose" record --bus no_such_can "$scratch/none.log"
@@ -103,6 +103,8 @@ test_full_disk() {
     timeout 60 "$build/wallwarp-pose" record --bus "$bus" --seconds 1 >/dev/full 2>"$scratch/stderr"
     [ $? -eq 1 ] && grep -q 'stdout: cannot write on: is the disk full?' "$scratch/stderr"
     check "a full disk is said" $?
+    ! grep -q recorded "$scratch/stderr"
+    check "what is not on the disk is not said to be recorded" $?
     end_room
 }
 
