@@ -274,10 +274,9 @@ int bus_check_print(FILE *file, const bus_watch_t *watch, int64_t pose_delay_us)
         check_viewer(&judge, v, &watch->viewer[v], pose_delay_us);
         viewers++;
     }
-    const int boards = check_boards(&judge, watch);
     if (viewers == 0)
         bus_judge_say(&judge, false, "no poses: see `wallwarp-pose send --help`");
-    if (boards == 0)
+    if (check_boards(&judge, watch) == 0)
         bus_judge_say(&judge, false, "no board reports; are they powered, and are there two nodes or more on the bus?");
     return judge.bad;
 }

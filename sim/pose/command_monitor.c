@@ -7,6 +7,7 @@
 #include "firmware/room.h"
 #include "sim/devices/sim_clock.h"
 #include "sim/pose/bus_check.h"
+#include "sim/pose/bus_check_room.h"
 #include "sim/pose/bus_listen.h"
 #include "sim/pose/bus_table.h"
 #include "sim/pose/command_options.h"
@@ -63,7 +64,9 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 }
 
 static const struct argp_option check_table[] = {
-    {"room", KEY_ROOM, "ROOM", 0, "The room file: is its pose_delay_ms enough for what is measured? And its bit rates",
+    {"room", KEY_ROOM, "ROOM", 0,
+     "The room file: are its boards there, and poses for them, and is its pose_delay_ms enough for what is measured? "
+     "And its bit rates",
      0},
     {0},
 };
@@ -161,17 +164,15 @@ int command_monitor(int argc, char **argv)
 }
 
 /* @return false when there is none; said. */
-static bool read_room(options_t *options, int64_t *pose_delay_us, const char *program)
+static bool read_room(options_t *options, room_t *room, const char *program)
 {
-    static room_t room;
     char error[ROOM_MESSAGE_LENGTH];
-    if (!room_load(&room, options->room, program_warn, NULL, error)) {
+    if (!room_load(room, options->room, program_warn, NULL, error)) {
         fprintf(stderr, "%s: %s\n", program, error);
         return false;
     }
-    options->bitrate = options->bitrate > 0 ? options->bitrate : room.bitrate;
-    options->data_bitrate = options->data_bitrate > 0 ? options->data_bitrate : room.data_bitrate;
-    *pose_delay_us = room.pose_delay_us;
+    options->bitrate = options->bitrate > 0 ? options->bitrate : room->bitrate;
+    options->data_bitrate = options->data_bitrate > 0 ? options->data_bitrate : room->data_bitrate;
     return true;
 }
 
@@ -188,9 +189,9 @@ int command_check(int argc, char **argv)
                "when something is bad, 2 for bad usage.",
     };
     static view_t view;
-    int64_t pose_delay_us = BUS_CHECK_NO_DELAY;
+    static room_t room;
     options_t options = read_options(&argp, argc, argv);
-    if (options.room != NULL && !read_room(&options, &pose_delay_us, argv[0]))
+    if (options.room != NULL && !read_room(&options, &room, argv[0]))
         return PROGRAM_FAILED;
     if (options.length_us == 0)
         options.length_us = CHECK_US;
@@ -198,7 +199,8 @@ int command_check(int argc, char **argv)
         options.length_us = BUS_CHECK_LEAST_US;
     if (!look(&view, &options, argv[0], false))
         return PROGRAM_FAILED;
-    const int bad = bus_check_print(stdout, &view.watch, pose_delay_us);
+    int bad = options.room == NULL ? 0 : bus_check_room(stdout, &view.watch, &room);
+    bad += bus_check_print(stdout, &view.watch, options.room == NULL ? BUS_CHECK_NO_DELAY : room.pose_delay_us);
     const int status = program_finish(argv[0]);
     return bad > 0 ? PROGRAM_FAILED : status;
 }

@@ -55,6 +55,12 @@ test_health() {
     pose_tool check --bus "$bus" --seconds 2 --room "$scratch/classic.yaml"
     grep -q ' viewer 0: ' "$scratch/stdout" && grep -q '^ok   load: ' "$scratch/stdout"
     check "check judges the poses and the load" $?
+    sed 's/node: 2/node: 5/; s/^    border:/    viewer: 1\n&/' "$scratch/classic.yaml" >"$scratch/other.yaml"
+    pose_tool check --bus "$bus" --seconds 2 --room "$scratch/other.yaml"
+    grep -q '^BAD  board 5: "left" of the room is silent' "$scratch/stdout" &&
+        grep -q '^BAD  board 2: is not of the room' "$scratch/stdout" &&
+        grep -q '^BAD  viewer 1: no poses, but boards follow it' "$scratch/stdout"
+    check "check compares the bus with the room" $?
     kill -INT "$sender"
     wait "$sender"
     sleep 0.3

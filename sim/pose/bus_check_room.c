@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Are a room's boards, and poses for them, on this bus?
+#include "sim/pose/bus_check_room.h"
+
+#include "sim/pose/bus_judge.h"
+
+static void check_boards(bus_judge_t *judge, const bus_watch_t *watch, const room_t *room)
+{
+    for (int32_t b = 0; b < room->board_count; b++) {
+        const room_board_t *board = &room->board[b];
+        if (!bus_watch_heard(&watch->board[board->node]))
+            bus_judge_say(judge, false, "board %d: \"%s\" of the room is silent; power, cable, another node number?",
+                          board->node, board->name);
+    }
+    char nodes[ROOM_NODES_LENGTH];
+    room_nodes(room, nodes);
+    for (int node = 1; node <= CAN_MAX_NODE; node++)
+        if (bus_watch_heard(&watch->board[node]) && room_board_with_node(room, node) == NULL)
+            bus_judge_say(judge, false, "board %d: is not of the room, whose nodes are %s; a wrong number?", node,
+                          nodes);
+}
+
+static void check_viewers(bus_judge_t *judge, const bus_watch_t *watch, const room_t *room)
+{
+    int followers[CAN_VIEWERS] = {0}, viewers = 0;
+    for (int32_t b = 0; b < room->board_count; b++)
+        followers[room->board[b].viewer]++;
+    for (int v = 0; v < CAN_VIEWERS; v++)
+        viewers += watch->viewer[v].fd || watch->viewer[v].set;
+    for (int v = 0; viewers > 0 && v < CAN_VIEWERS; v++) {
+        const bool sent = watch->viewer[v].fd || watch->viewer[v].set;
+        if (followers[v] > 0 && !sent)
+            bus_judge_say(judge, false, "viewer %d: no poses, but boards follow it: %d of %d; see `viewer` of the room",
+                          v, followers[v], room->board_count);
+        if (followers[v] == 0 && sent)
+            bus_judge_say(judge, true, "viewer %d: no board follows it", v);
+    }
+}
+
+int bus_check_room(FILE *file, const bus_watch_t *watch, const room_t *room)
+{
+    bus_judge_t judge = {.file = file};
+    if (watch->frames == 0)
+        return 0;
+    check_boards(&judge, watch, room);
+    check_viewers(&judge, watch, room);
+    return judge.bad;
+}
