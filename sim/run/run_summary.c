@@ -5,6 +5,8 @@
 #include <inttypes.h>
 #include <math.h>
 
+enum { MOST_SKIPPED_SHARE = 10 }; /* a tenth of the frames made */
+
 const char *run_summary_method(const run_summary_t *summary, int32_t board)
 {
     return summary->method_name != NULL ? summary->method_name : summary->room->board[board].method->name;
@@ -81,12 +83,18 @@ void run_summary_print(const run_summary_t *summary, FILE *file)
     fprintf(file, ": %" PRId64 " frames, load %.2f %%, at most %.2f %% from frame to frame\n", summary->bus.frames,
             summary->bus.load_ppm / 1e4, run_summary_peak_load_ppm(summary) / 1e4);
     const run_agreement_t agreement = run_record_agreement(summary->record);
-    fprintf(file, "agreement: %" PRId64 " of %" PRId64 " walls in step, %" PRId64 " frames in which they differ",
+    fprintf(file,
+            "agreement: at %" PRId64 " of %" PRId64 " refreshes a board was certain to show what all do; %" PRId64
+            " frames differ",
             agreement.in_step, agreement.refreshes, agreement.differing);
     if (agreement.in_step > 0)
         fprintf(file, "; pose to photon %.1f ms, at most %.1f", agreement.latency_ms_mean, agreement.latency_ms_most);
     const run_house_t house = run_record_house(summary->record);
     if (summary->genlock)
         print_house(&house, file);
+    if (summary->skipped > summary->record->frames / MOST_SKIPPED_SHARE)
+        fputs(
+            "\nthis machine is too slow for the room in real time: smaller panels, fewer boards or a lower --rate help",
+            file);
     fprintf(file, "\npage: %s/index.html\n", summary->folder);
 }
