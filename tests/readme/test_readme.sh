@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Run every command of the README, block by block, as a user would paste it. usage: test_readme.sh BUILD
+# Run every command of the README and of the page of wallwarp-pose, block by block, as a user would paste it.
+# usage: test_readme.sh BUILD
 #
 # Not two blocks: the first is the test run itself and the demo, which call this script or are called beside it; the other
 # builds for a board, which takes more packages than `make test` does, and which `make boards` does for all.
@@ -27,6 +28,6 @@ while IFS= read -r line; do
         ;;
     *) [ -z "$block" ] || text+=$line$'\n' ;;
     esac
-done <README.md
+done < <(cat README.md sim/pose/README.md)
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

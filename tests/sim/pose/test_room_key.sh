@@ -6,7 +6,7 @@ set -u
 build=${1:?usage: test_room_key.sh BUILD_FOLDER}
 . tests/sim/run/programs.sh
 
-# The command of README.md.
+# The command of the README beside wallwarp-pose.
 new_key() {
     (umask 077; od -An -N16 -tx1 /dev/urandom | tr -d ' ' >"$1")
 }
