@@ -15,7 +15,7 @@
 
 part start ${devtype} ${devnum} state block_0
 setexpr block_1 ${block_0} + 400
-# Memory that the kernel gets later. The sum is made at sum_0, its most significant byte first; in a copy it comes last.
+# Memory that the kernel gets later. The sum is made at sum_0; in a copy its most significant byte comes last.
 setexpr copy_0 ${kernel_addr_r} + 0
 setexpr copy_1 ${kernel_addr_r} + 200
 setexpr sum_0 ${kernel_addr_r} + 400
@@ -26,7 +26,15 @@ setexpr crc_0 ${kernel_addr_r} + 404
 setexpr crc_1 ${kernel_addr_r} + 405
 setexpr crc_2 ${kernel_addr_r} + 406
 setexpr crc_3 ${kernel_addr_r} + 407
-setenv find_crc 'setexpr strings ${copy} + 5; crc32 ${strings} 1fb ${sum_0}; cp.b ${sum_3} ${crc_0} 1; cp.b ${sum_2} ${crc_1} 1; cp.b ${sum_1} ${crc_2} 1; cp.b ${sum_0} ${crc_3} 1'
+setenv find_crc 'setexpr strings ${copy} + 5; crc32 ${strings} 1fb ${sum_0}; run order_crc'
+# Which of its bytes crc32 writes first depends on what U-Boot was built with: the sum of four zeros tells.
+mw.l ${copy_0} 0
+crc32 ${copy_0} 4 ${sum_0}
+if itest.l *${sum_0} == 2144df1c; then
+    setenv order_crc 'cp.b ${sum_0} ${crc_0} 4'
+else
+    setenv order_crc 'cp.b ${sum_3} ${crc_0} 1; cp.b ${sum_2} ${crc_1} 1; cp.b ${sum_1} ${crc_2} 1; cp.b ${sum_0} ${crc_3} 1'
+fi
 
 setenv whole_0 no
 setenv whole_1 no
