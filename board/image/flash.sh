@@ -7,6 +7,7 @@
 #   IMAGE=FILE.img.xz   this image in place of build/BOARD/wallwarp-BOARD.img.xz; FILE.img.bmap is beside it
 #   NODE=3 ROOM=studio.yaml KEY=room.key CAN=can1 DISPLAY=HDMI-A-2 CAMERA=v4l2:/dev/video2
 #                       what differs from the image's own: each is put onto the card, and into its wallwarp.yaml
+#   LOGIN=id.pub        public SSH keys, those of who may log in
 #   YES=1               does not ask before it erases a disk
 #
 # All that can be wrong is looked for before the first byte is written. What was written is read again at the end.
@@ -25,15 +26,15 @@ usage() {
     exit 2
 }
 
-board='' dev='' image='' node='' room='' key='' can='' display='' camera='' yes=''
+board='' dev='' image='' node='' room='' key='' can='' display='' camera='' login='' yes=''
 for argument in "$@"; do
     case $argument in
-    BOARD=* | DEV=* | IMAGE=* | NODE=* | ROOM=* | KEY=* | CAN=* | DISPLAY=* | CAMERA=* | YES=*)
+    BOARD=* | DEV=* | IMAGE=* | NODE=* | ROOM=* | KEY=* | CAN=* | DISPLAY=* | CAMERA=* | LOGIN=* | YES=*)
         name=${argument%%=*}
         [[ $argument != *[[:cntrl:]]* ]] || usage "$name=: holds a line end or another control character, expected a name"
         printf -v "${name,,}" %s "${argument#*=}"
         ;;
-    *) usage "found \"$argument\", expected BOARD=, DEV=, IMAGE=, NODE=, ROOM=, KEY=, CAN=, DISPLAY=, CAMERA= or YES=1" ;;
+    *) usage "found \"$argument\", expected BOARD=, DEV=, IMAGE=, NODE=, ROOM=, KEY=, CAN=, DISPLAY=, CAMERA=, LOGIN= or YES=1" ;;
     esac
 done
 
@@ -156,6 +157,15 @@ set_key() {
 # A text as YAML writes it, whatever is in it.
 quoted() { echo "'${1//\'/\'\'}'"; }
 
+# Public keys, a line each, with dropbear's options before them or not. A private one must not get onto a card.
+check_login() {
+    local found
+    [ -r "$login" ] || fail "LOGIN=$login: cannot be read, expected public SSH keys, as ~/.ssh/id_ed25519.pub"
+    found=$(grep -nvE '^ *(#|$)|(^| )(ssh-(ed25519|rsa)|ecdsa-sha2-nistp[0-9]+|sk-[^ ]+) AAAA' "$login" | head -n 1 || true)
+    [ -z "$found" ] || fail "LOGIN=$login:${found%%:*}: is no public SSH key, expected them, as ~/.ssh/id_ed25519.pub"
+    grep -q AAAA "$login" || fail "LOGIN=$login: has no key, expected public SSH keys, as ~/.ssh/id_ed25519.pub"
+}
+
 # What the firmware's own reader of a room, key or configuration says of it.
 check_by_firmware() {
     local part=$1 said
@@ -196,12 +206,20 @@ END
         fail "$image: $file does not fit onto its partition \"data\""
 }
 
+# A file onto the first partition. Its time is the image's.
+put_card() {
+    local file=$1 name=$2
+    cat "$file" >"$stage/put"
+    touch -r "$settings" "$stage/put"
+    mcopy -o -m -i "$copy@@$card_at" "$stage/put" "::$name" 2>"$stage/log" || true
+    mcopy -n -i "$copy@@$card_at" "::$name" - 2>"$stage/log" | cmp -s - "$file" ||
+        fail "$image: $name does not fit onto its partition \"card\""
+}
+
 put_settings() {
     local user
-    [ -n "$node$room$key$can$display$camera" ] || return 0
-    mcopy -o -m -i "$copy@@$card_at" "$settings" ::wallwarp.yaml 2>"$stage/log" || true
-    mcopy -n -i "$copy@@$card_at" ::wallwarp.yaml - 2>"$stage/log" | cmp -s - "$settings" ||
-        fail "$image: wallwarp.yaml does not fit onto its partition \"card\""
+    [ -z "$node$room$key$can$display$camera" ] || put_card "$settings" wallwarp.yaml
+    [ -z "$login" ] || put_card "$login" authorized_keys
     [ -z "$room" ] || put_data "$room" room.yaml 0 0100644
     if [ -n "$key" ]; then # of the firmware's user, and nobody else's: hal/hal_key.h
         user=$(root_file etc/passwd | awk -F: '$1 == "wallwarp" {print $3}')
@@ -246,7 +264,7 @@ kind='plain file'
 if [ "$kind" != disk ]; then
     [ "${dev#/dev/}" = "$dev" ] || fail "DEV=$dev: is not there, expected a disk; \`make flash\` lists them"
     [ -d "$(dirname "$dev")" ] || fail "DEV=$dev: has no folder, expected a file in one, or a disk"
-    for file in "$image" "$room" "$key"; do
+    for file in "$image" "$room" "$key" "$login"; do
         [ ! "$dev" -ef "$file" ] || fail "DEV=$dev: is what is to be written, expected another file"
     done
     [ ! -e "$dev" ] || [ -f "$dev" ] || fail "DEV=$dev: is neither a disk nor a plain file, expected one of them"
@@ -260,6 +278,7 @@ mkdir -p "build/$board"
 stage=$(mktemp -d "build/$board/flash.XXXXXX")
 [ -z "$room" ] || check_by_firmware room "$room" --node "$node"
 [ -z "$key" ] || check_by_firmware key --key "$key"
+[ -z "$login" ] || check_login
 
 [[ -e $image || $image != "$own" ]] || make --no-print-directory BOARD="$board" image
 bmap=${image%.xz}.bmap
@@ -274,7 +293,7 @@ make_settings
 put_settings
 
 say "$dev: $(if [ "$kind" = disk ]; then described "$dev"; else echo "a $kind"; fi)"
-say "wallwarp-$board $(root_file usr/lib/wallwarp/version)${node:+, node $node}${room:+, room $room}${key:+, key $key}"
+say "wallwarp-$board $(root_file usr/lib/wallwarp/version)${node:+, node $node}${room:+, room $room}${key:+, key $key}${login:+, login $login}"
 [ "$kind" != disk ] || ask
 write_card
 say "done: $dev is a card for $board${node:+, node $node}$([ "$kind" != disk ] || echo "; eject it")"

@@ -74,7 +74,7 @@ $(addprefix $(DEVELOPMENT_KEY)/,signing.key signing.pem ca.pem) &:
 	$(Q)rm -rf $(DEVELOPMENT_KEY); said=$$(board/image/signing_key.sh $(DEVELOPMENT_KEY) 2>&1) || { echo "$$said" >&2; exit 1; }
 
 # What a card gets is said on the command line: a desktop has a DISPLAY of its own. How: board/image/README.md.
-CARD  := DEV IMAGE NODE ROOM KEY CAN DISPLAY CAMERA YES
+CARD  := DEV IMAGE NODE ROOM KEY CAN DISPLAY CAMERA LOGIN YES
 given  = $(foreach n,$(1),$(if $(filter command,$(firstword $(origin $(n)))),'$(n)=$(subst ','\'',$($(n)))'))
 .PHONY: flash
 flash: setup-flash ## Write a board's card: make BOARD=rpi4 flash DEV=/dev/sdX NODE=3 ROOM=studio.yaml; lists disks without DEV

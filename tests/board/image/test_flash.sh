@@ -153,6 +153,7 @@ ln -s "$root/$1" "$folder/tree/build/host"
 cd "$folder/tree" || exit 1
 make_tools
 make_image
+printf '%s\n' '# who stands in the studio' 'ssh-ed25519 AAAAC3Nza me' '' 'no-pty sk-ssh-ed25519@openssh.com AAAAGnNr you' >"$folder/login"
 (umask 077 && echo 000102030405060708090A0b0c0d0e0f >"$folder/room.key")
 
 name='a file, nothing but the image'
@@ -166,7 +167,7 @@ ok $? "$name: nobody else may read it"
 name='a disk that was full of something else, all settings'
 make_disk sdx 60000000
 run DEV="$folder/sdx" NODE=3 ROOM=sim/demo/room.yaml KEY="$folder/room.key" CAN=can1 DISPLAY="it's" \
-    CAMERA='libcamera:\_SB_.PCI "0"' YES=1
+    CAMERA='libcamera:\_SB_.PCI "0"' LOGIN="$folder/login" YES=1
 exits 0
 said "flash: $folder/sdx: Card of a test, 57.3MiB"
 said 'flash: wallwarp-qemu-virt 1.2-test, node 3, room sim/demo/room.yaml'
@@ -192,6 +193,8 @@ data_of "$folder/sdx" 'cat room.yaml' | cmp -s - sim/demo/room.yaml
 ok $? "$name: the room file is on the data partition"
 data_of "$folder/sdx" 'cat room.key' | cmp -s - "$folder/room.key"
 ok $? "$name: so is the key"
+mcopy -n -i "$folder/sdx@@$((512 * start[card]))" ::authorized_keys - | cmp -s - "$folder/login"
+ok $? "$name: so are the SSH keys, on the first partition"
 data_of "$folder/sdx" 'stat room.key' >"$folder/said"
 grep -q 'Type: regular *Mode: *0600 ' "$folder/said" && grep -q 'User: *990 ' "$folder/said"
 ok $? "$name: the key is of the user wallwarp alone"
@@ -202,10 +205,10 @@ grep -q "^blockdev --flushbufs $folder/sdx,  locked$" "$folder/flushed"
 ok $? "$name: what is compared comes from the disk, and nobody else has it"
 
 name='two cards of a room'
-run DEV="$folder/card1.img" NODE=1 ROOM=sim/demo/room.yaml KEY="$folder/room.key"
+run DEV="$folder/card1.img" NODE=1 ROOM=sim/demo/room.yaml KEY="$folder/room.key" LOGIN="$folder/login"
 exits 0
 sleep 1.1 # were there a time in it, it would be another one
-run DEV="$folder/card2.img" NODE=2 ROOM=sim/demo/room.yaml KEY="$folder/room.key"
+run DEV="$folder/card2.img" NODE=2 ROOM=sim/demo/room.yaml KEY="$folder/room.key" LOGIN="$folder/login"
 exits 0
 [ "$(cmp -l "$folder/card1.img" "$folder/card2.img" | awk '{print $2, $3}')" = '61 62' ]
 ok $? "$name: differ in the digit of the node, and in no other byte"
@@ -331,6 +334,14 @@ refused 1 "key: $folder/short.key: is no key, expected 32 hexadecimal digits"
 chmod 644 "$folder/short.key"
 run "$dev" KEY="$folder/short.key"
 refused 1 "key: $folder/short.key: has mode 0644"
+run "$dev" LOGIN="$folder/none.pub"
+refused 1 "LOGIN=$folder/none.pub: cannot be read, expected public SSH keys"
+printf '%s\n' '-----BEGIN OPENSSH PRIVATE KEY-----' AAAA >"$folder/private"
+run "$dev" LOGIN="$folder/private"
+refused 1 "LOGIN=$folder/private:1: is no public SSH key"
+echo '# none' >"$folder/empty"
+run "$dev" LOGIN="$folder/empty"
+refused 1 "LOGIN=$folder/empty: has no key"
 run "$dev" CAN="$(printf 'can0\ncan1')"
 refused 2 'CAN=: holds a line end or another control character, expected a name'
 run "$dev" DISK=1
