@@ -39,4 +39,6 @@ mv "$work/bundle" "$bundle"
 unsquashfs -cat "$folder/root.squashfs" etc/rauc/keyring.pem >"$work/keyring"
 openssl verify -no_check_time -CAfile "$work/keyring" "$3" >/dev/null 2>&1 ||
     echo "bundle: boards that start this version take nothing more that is signed with $3: it has another ca.pem" >&2
+openssl x509 -noout -checkend 0 -in "$3" >/dev/null ||
+    echo "bundle: boards will refuse it: $3 has expired; make a new one: RENEW=1 make DIR=$(dirname "$3") signing-key" >&2
 echo "$bundle: version $version for $board, $(stat -c %s "$bundle") bytes"

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Bundles leave boards with the certificate that their makers have, or say that they don't.
+# Bundles leave boards with the certificate that their makers have, or say that they don't; and who signs with an expired one
+# hears of it before the boards do.
 # shellcheck disable=SC2016 # make expands what is in its words
 # Usage, from the tree's root: tests/board/image/test_bundle.sh
 set -u
@@ -34,6 +35,14 @@ made "$folder/other/ca.pem"
 ok $? "no bundle with another certificate is made"
 grep -q 'boards that start this version take nothing more' "$folder/said"
 ok $? "nobody says that the next bundle will be refused"
+
+! grep -q expired "$folder/said"
+ok $? "a good certificate is called expired"
+END=20210101000000Z RENEW=1 board/image/signing_key.sh "$folder/mine" 2>"$folder/said"
+made "$folder/mine/ca.pem"
+ok $? "no bundle with an expired certificate is made"
+grep -q "boards will refuse it: $folder/mine/signing.pem has expired; .* RENEW=1 make DIR=$folder/mine signing-key" "$folder/said"
+ok $? "nobody says that the certificate has expired"
 
 made=$(make -s --eval 'print-ca: ; @echo $(CA)' print-ca SIGNING_CERT=keys/signing.pem 2>"$folder/said")
 [ "$made" = keys/ca.pem ]

@@ -69,7 +69,7 @@ make_root() {
     program df <<<'echo "Filesystem 1K-blocks Used Available Use% Mounted on"
         if [ -e $folder/full ]; then echo "/dev/x 1000 1000 0 100% /data"; else echo "/dev/x 9999 0 9999 0% /data"; fi'
     program rauc <<<'case $1 in
-        info) exec /usr/bin/rauc --keyring=$folder/keys/ca.pem "$@" ;;
+        info) exec /usr/bin/rauc --conf=$folder/root/etc/rauc/system.conf --keyring=$folder/keys/ca.pem "$@" ;;
         esac
         echo "$@" >>$folder/installs
         fw_setenv BOOT_ORDER $(sed -n "s/.*rauc.slot=\([AB]\).*/\1/p" $folder/root/proc/cmdline)
