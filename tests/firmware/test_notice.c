@@ -49,6 +49,7 @@ static void it_lives(void **state)
     assert_true(heard->last.healthy);
     assert_int_equal(heard->states, 1);
     assert_string_equal(heard->last.state, reason);
+    assert_int_equal(projector->events.log.entry[1].kind, EVENT_STATE);
 }
 
 static void operators_are_served(void **state)

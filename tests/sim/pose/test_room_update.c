@@ -182,6 +182,31 @@ static void test_only_boards_of_another_version_go_back(void **state)
     assert_int_equal(told(COMMAND_UPDATE_SWITCH), 2);
 }
 
+static void test_trial_that_has_no_end(void **state)
+{
+    (void)state;
+    most_us += ROOM_UPDATE_START_US;
+    begin(ROOM_UPDATE_SWITCH, NULL);
+    while (update.result == ROOM_UPDATE_WORKING && now_us < most_us) {
+        turn();
+        board[1].status.trial = true;
+    }
+    assert_int_equal(update.result, ROOM_UPDATE_MIXED);
+    assert_in_range(now_us - update.switch_us, ROOM_UPDATE_START_US, ROOM_UPDATE_START_US + 5000000);
+    check_trouble(1, ROOM_BOARD_TRIAL, "not marked good");
+}
+
+static void test_stop_before_the_moment_cancels(void **state)
+{
+    (void)state;
+    begin(ROOM_UPDATE_SWITCH, NULL);
+    while (update.step != ROOM_UPDATE_WATCH)
+        turn();
+    room_update_stop(&update, now_us);
+    run_to(ROOM_UPDATE_CANCELLED);
+    assert_int_equal(told(COMMAND_UPDATE_CANCEL), BOARDS);
+}
+
 static void test_stop_cancels(void **state)
 {
     (void)state;
@@ -214,6 +239,8 @@ int main(void)
         cmocka_unit_test_setup(test_cancellation_is_repeated, open_room),
         cmocka_unit_test_setup(test_board_that_is_not_heard_again_is_told, open_room),
         cmocka_unit_test_setup(test_only_boards_of_another_version_go_back, open_room),
+        cmocka_unit_test_setup(test_trial_that_has_no_end, open_room),
+        cmocka_unit_test_setup(test_stop_before_the_moment_cancels, open_room),
         cmocka_unit_test_setup(test_stop_cancels, open_room),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

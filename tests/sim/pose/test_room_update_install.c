@@ -30,6 +30,17 @@ static void test_status_of_boards_in_trouble(void **state)
     check_trouble(2, ROOM_BOARD_WELL, "failed: no space");
 }
 
+/* It is asked again, but not for ever. */
+static void test_status_of_a_silent_board(void **state)
+{
+    (void)state;
+    board[0].silent = true;
+    begin(ROOM_UPDATE_STATUS, NULL);
+    run_to(ROOM_UPDATE_REFUSED);
+    check_trouble(0, ROOM_BOARD_SILENT, "is silent");
+    assert_int_equal(told(COMMAND_UPDATE_STATUS), BOARDS - 1);
+}
+
 static void test_cancel(void **state)
 {
     (void)state;
@@ -74,6 +85,17 @@ static void test_install_that_does_not_go_on(void **state)
     check_trouble(1, ROOM_BOARD_WELL, "2 waits");
 }
 
+static void test_install_that_has_no_end(void **state)
+{
+    (void)state;
+    board[2].status.state = CAN_UPDATE_INSTALLING;
+    most_us += ROOM_UPDATE_INSTALL_US;
+    begin(ROOM_UPDATE_INSTALL, NULL);
+    run_to(ROOM_UPDATE_FAILED);
+    assert_in_range(now_us - update.begun_us, ROOM_UPDATE_INSTALL_US, ROOM_UPDATE_INSTALL_US + 5000000);
+    check_trouble(2, ROOM_BOARD_OTHER, "installing");
+}
+
 static void test_every_refusal_has_its_words(void **state)
 {
     (void)state;
@@ -88,10 +110,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_status, open_room),
         cmocka_unit_test_setup(test_status_of_boards_in_trouble, open_room),
+        cmocka_unit_test_setup(test_status_of_a_silent_board, open_room),
         cmocka_unit_test_setup(test_cancel, open_room),
         cmocka_unit_test_setup(test_install_that_a_board_refuses, open_room),
         cmocka_unit_test_setup(test_install_of_different_versions, open_room),
         cmocka_unit_test_setup(test_install_that_does_not_go_on, open_room),
+        cmocka_unit_test_setup(test_install_that_has_no_end, open_room),
         cmocka_unit_test_setup(test_every_refusal_has_its_words, open_room),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
