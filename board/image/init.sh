@@ -22,11 +22,14 @@ fail() {
     busybox reboot -f
 }
 
-# device_of LABEL: the device of a partition.
+# device_of LABEL: the device of a partition; the first, as another card may be in a reader.
 device_of() {
-    device=$(busybox grep -lsx "PARTNAME=$1" /sys/class/block/*/uevent) || return
-    device=${device%/uevent}
-    echo "/dev/${device##*/}"
+    for device in $(busybox grep -lsx "PARTNAME=$1" /sys/class/block/*/uevent); do
+        device=${device%/uevent}
+        echo "/dev/${device##*/}"
+        return
+    done
+    return 1
 }
 
 label=
