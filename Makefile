@@ -206,41 +206,7 @@ build/info/%: board/%/board.c board/%/info.c board/print_info.c board/board_info
 
 # --- tests ------------------------------------------------------------------------------------------------------------
 
-# The same bytes from other compilers, optimisations and CPUs: each variant builds warp_fixed and golden_hashes anew.
-GOLDEN          := $(BUILD)/golden_hashes
-GOLDEN_VARIANTS := gcc-O0 gcc-O3 clang-O0 clang-O3 aarch64-linux-gnu-gcc-O0 aarch64-linux-gnu-gcc-O3
-$(GOLDEN): $(call objects,tests/golden/golden_hashes.c) $(BUILD)/libwarp.a
-	@mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^
-
-# The checker of vector code, in the optimised ones of these variants.
-CHECK_KERNELS   := $(BUILD)/check_kernels
-KERNEL_VARIANTS := $(filter %-O3,$(GOLDEN_VARIANTS))
-$(CHECK_KERNELS): $(call objects,$(wildcard tests/kernels/*.c)) $(BUILD)/libwarp.a
-	@mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
-
-.PHONY: golden $(GOLDEN_VARIANTS:%=golden-%)
-golden: $(GOLDEN_VARIANTS:%=golden-%) ## Build what checks that other compilers and CPUs make the same bytes
-$(GOLDEN_VARIANTS:%=golden-%): golden-%:
-	$(Q)variant=$* && $(MAKE) $(SUB) BUILD=build/variants/$* CC=$${variant%-O?} OPT=-$${variant##*-} \
-	    LDFLAGS=-static build/variants/$*/golden_hashes $(if $(filter $*,$(KERNEL_VARIANTS)),build/variants/$*/check_kernels)
-
-# Vector code has forms of its own for AVX2 and AVX-512: built for this CPU, as the benchmark is, and without AVX-512.
-# A CPU without either is given SSE2 again.
-X86          := build/variants/x86
-X86_OPT      := -O3 -march=native
-X86_AVX2     := $(X86)-avx2
-X86_AVX2_OPT := $(X86_OPT) -mno-avx512f
-x86_checks    = $(addprefix $(1)/,check_kernels tests/warp_fixed/test_neon tests/warp_fixed/test_neon_products)
-.PHONY: golden-x86 golden-x86-avx2
-golden: golden-x86 golden-x86-avx2
-golden-x86:
-	$(Q)$(MAKE) $(SUB) BUILD=$(X86) OPT='$(X86_OPT)' LIBS=$(X86)/libwarp.a \
-	    $(X86)/golden_hashes $(call x86_checks,$(X86))
-golden-x86-avx2:
-	$(Q)$(MAKE) $(SUB) BUILD=$(X86_AVX2) OPT='$(X86_AVX2_OPT)' LIBS=$(X86_AVX2)/libwarp.a \
-	    $(call x86_checks,$(X86_AVX2))
+include tests/golden/golden.mk
 
 # Commands of the test run, one word list each.
 emulated     = $(if $(findstring aarch64,$(1)),qemu-aarch64 )
@@ -284,106 +250,12 @@ sanitize-threads: setup-test ## Run the workers' test with the thread sanitizer
 freestanding: setup-test ## Compile warp_fixed for aarch64 without any library, and look for float and foreign symbols
 	$(Q)tests/warp_fixed/test_freestanding.sh $(BUILD)
 
-# --- the virtual board ------------------------------------------------------------------------------------------------
+# --- parts of their own -----------------------------------------------------------------------------------------------
 
-build/board-kernel.made: tests/board/virtual/kernel.sh
-	$(if $(V),,@echo "  KERNEL build/board-kernel")
-	$(Q)tests/board/virtual/kernel.sh build/board-kernel
-	$(Q)touch $@
-build/board-kernel/initramfs.gz: tests/board/virtual/initramfs.sh tests/board/virtual/init.sh board/initramfs.sh build/board-kernel.made \
-    build/sysroot.made
-	$(Q)tests/board/virtual/initramfs.sh build/sysroot build/board-kernel
-
-# Programs that its tests run on it, check_*.c and probe_*.c; other files there are parts of theirs.
-VIRTUAL_PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/board/virtual/check_*.c tests/board/virtual/probe_*.c) \
-                        tests/board/virtual/usb_camera.c)
-
-# What these are given to preload.
-HEAP_COUNTER     := $(BUILD)/tests/board/virtual/count_heap.so
-$(HEAP_COUNTER): $(call objects,tests/board/virtual/count_heap.c)
-	@mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS) $(MACHINE) -shared -o $@ $^
-$(call objects,tests/board/virtual/count_heap.c): CFLAGS += -fPIC
-
-VIRTUAL_TESTS    := $(wildcard tests/board/virtual/test_*.sh)
-
-.PHONY: test-board virtual-programs
-test-board: setup-test setup-board ## Boot a virtual arm64 board and run the firmware in it; the last line says how many tests passed
-	$(Q)$(MAKE) $(SUB) build/sysroot.made build/board-kernel.made programs \
-	    $(addprefix build/host/tests/,hal/linux/print_edid board/picture_tool board/wire_tool)
-	$(Q)$(MAKE) $(SUB) BOARD=qemu-virt virtual-programs
-	$(Q)tests/board/virtual/run.sh build/test-board build/qemu-virt $(VIRTUAL_TESTS)
-virtual-programs: programs $(VIRTUAL_PROGRAMS) $(OTHER_BOARD) $(HEAP_COUNTER) build/board-kernel/initramfs.gz
-
+include tests/board/virtual/virtual.mk
 include board/image/image.mk
-
-# --- benchmarks -------------------------------------------------------------------------------------------------------
-
-$(BUILD)/count_plugin.so: $(call objects,tests/bench/count_plugin.c)
-$(BUILD)/cache_plugin.so: $(call objects,tests/bench/cache_plugin.c tests/bench/cache_model.c)
-$(BUILD)/%_plugin.so: $(call objects,tests/bench/qemu_plugin_version.c)
-	@mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -shared -o $@ $^
-$(call objects,$(addprefix tests/bench/,count_plugin.c cache_plugin.c cache_model.c qemu_plugin_version.c)): \
-    CFLAGS += -fPIC -fvisibility=hidden
-# Tests of parts that no library holds.
-$(addprefix $(BUILD)/tests/bench/test_,cache_model x86_row): $(BUILD)/tests/bench/test_%: $(BUILD)/obj/tests/bench/%.c.o
-$(BUILD)/bench_arm $(BUILD)/bench_cache: $(BUILD)/%: $(BUILD)/obj/tests/bench/%.c.o \
-    $(call objects,tests/bench/markers.c tests/bench/workload.c) $(BUILD)/libwarp.a
-	@mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
-
-# OpenCV picks the best instructions of the CPU when it runs; ours are told of them here. Only the CSV goes to stdout.
-ROUNDS := 15
-.PHONY: bench
-bench: setup-bench ## Time each pixel on this machine beside OpenCV and memcpy as CSV, and draw build/bench/bench.svg
-	$(Q)$(MAKE) $(SUB) BUILD=$(X86) OPT='$(X86_OPT)' $(X86)/bench_x86 >&2
-	$(Q)mkdir -p build/bench
-	$(Q)$(X86)/bench_x86 $(ROUNDS) build/bench
-$(BUILD)/bench_x86: $(call objects,$(wildcard tests/bench/*_x86.c tests/bench/x86_*.c) tests/bench/workload.c \
-    tests/bench/opencv.cpp sim/files/gnuplot.c sim/files/file_io.c firmware/warp_steps.c hal/linux/workers_pthread.c) \
-    $(BUILD)/libwarp.a
-	@mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lopencv_imgproc -lopencv_core -lstdc++ -lm -lpthread
-# Everything but the CSV goes to stderr. BASELINE=new makes these counts the ones that later runs are held to.
-ARM      := build/variants/aarch64-linux-gnu-gcc-O3
-KERNELS  := neon
-BASELINE := tests/bench/baseline.csv
-.PHONY: bench-arm
-bench-arm: setup-bench ## Count the instructions and A72 cycles of each pixel as CSV; fail if more than the baseline
-	$(Q)$(MAKE) $(SUB) $(BUILD)/count_plugin.so >&2
-	$(Q)$(MAKE) $(SUB) BUILD=$(ARM) CC=aarch64-linux-gnu-gcc OPT=-O3 LDFLAGS=-static $(ARM)/bench_arm >&2
-	$(Q)tests/bench/test_count_plugin.sh $(BUILD) >&2
-	$(Q)tests/bench/check_a72_cycles.sh $(BUILD) >&2
-	$(Q)tests/bench/bench_arm.sh $(BUILD)/count_plugin.so $(ARM)/bench_arm build/bench/arm $(KERNELS) $(BASELINE)
-
-# FORM=csv for all figures, FORM=readme to put the table into README.md.
-FORM := table
-.PHONY: budget
-budget: ## Print which method holds 60 Hz on which board, with how many cores and what headroom
-	$(Q)board/budget.sh $(FORM)
-
-.PHONY: bench-cache
-bench-cache: setup-test ## Count the cache lines that an A72 fetches per pixel as CSV: turned frames, tiles of many sizes
-	$(Q)$(MAKE) $(SUB) $(BUILD)/cache_plugin.so >&2
-	$(Q)$(MAKE) $(SUB) BUILD=$(ARM) CC=aarch64-linux-gnu-gcc OPT=-O3 LDFLAGS=-static $(ARM)/bench_cache >&2
-	$(Q)tests/bench/bench_cache.sh $(BUILD)/cache_plugin.so $(ARM)/bench_cache build/bench/cache
-
-# --- fuzzing ----------------------------------------------------------------------------------------------------------
-
-FUZZ_C  := $(wildcard tests/fuzz/fuzz_*.c)
-FUZZERS := $(FUZZ_C:%.c=$(BUILD)/%)
-SECONDS := 20
-$(BUILD)/tests/fuzz/%: $(BUILD)/obj/tests/fuzz/%.c.o $(call objects,$(filter-out $(FUZZ_C),$(wildcard tests/fuzz/*.c))) \
-    $(BUILD)/libsupport.a $(LIBS)
-	$(call link)
-
-.PHONY: fuzz run-fuzz
-fuzz: setup-test ## Search for inputs that break the readers and the warp, SECONDS=20 for each target
-	$(Q)$(MAKE) $(SUB) BUILD=build/fuzz CC=clang OPT='-O2 -fsanitize=fuzzer,address,undefined \
-	    -fno-sanitize-recover=all -fno-omit-frame-pointer' run-fuzz
-run-fuzz: $(FUZZERS)
-	$(Q)tests/fuzz/run.sh $(BUILD) $(SECONDS)
+include tests/bench/bench.mk
+include tests/fuzz/fuzz.mk
 
 # --- the rest ---------------------------------------------------------------------------------------------------------
 

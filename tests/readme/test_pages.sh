@@ -8,7 +8,7 @@ passed=0 failed=0
 scratch=$(mktemp -d "${TMPDIR:-/tmp}/wallwarp-pages.XXXXXX") || exit 1
 trap 'rm -rf "$scratch"' EXIT
 mapfile -t pages < <(find . -name build -prune -o -name '*.md' -print | sed 's|^\./||' | sort)
-mapfile -t sources < <(find firmware hal sim board -name '*.[ch]' -o -name '*.cpp' -o -name '*.sh' -o -name '*.html')
+mapfile -t sources < <(find firmware hal sim board -name '*.[ch]' -o -name '*.cpp' -o -name '*.sh' -o -name '*.html' -o -name '*.mk')
 
 # good WHERE WHAT COMMAND ...: the command must succeed.
 good() {
@@ -50,7 +50,7 @@ make_words() {
         case $word in
         BOARD=NAME | BOARD= | -* | ...) ;;
         BOARD=*) good "$where" "make $word" test -e "board/${word#BOARD=}/board.mk" ;;
-        [A-Z]*=*) good "$where" "make $word" grep -rqw --include=Makefile --include='*.sh' -- "${word%%=*}" Makefile board tests ;;
+        [A-Z]*=*) good "$where" "make $word" grep -rqw --include=Makefile --include='*.mk' --include='*.sh' -- "${word%%=*}" Makefile board tests ;;
         [a-z]*) good "$where" "make $word" grep -qxF -- "$word" "$scratch/targets" ;;
         *) break ;;
         esac
