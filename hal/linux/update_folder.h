@@ -9,6 +9,10 @@
 // `state`, lines of key=value, at most UPDATE_STATE_BYTES: `state` (idle, installing, ready, failed or switching; must
 // be there), `progress` (0 to 100), `slot` (A or B), `trial` (0 or 1), `running`, `waiting`, `other` (versions),
 // `message`. Without `other` it is what waits. Other keys are passed over.
+//
+// tmpfs is memory: nothing here waits for a card. On the virtual board, kernel and all: to read the state takes 22,000
+// instructions, of 2,000 times at most 37,000; to ask for something 37,000, at most 74,000. At one a cycle that is 25
+// and 50 us of a Raspberry Pi 4, once a second and after a frame's stages, so no thread of its own does it.
 #ifndef HAL_LINUX_UPDATE_FOLDER_H
 #define HAL_LINUX_UPDATE_FOLDER_H
 

@@ -30,7 +30,7 @@ static void take_board(update_record_t *record, const update_play_t *play, const
     if (last >= 0 && record->change[last].look == look)
         return;
     if (record->changes == UPDATE_RECORD_CHANGES) {
-        record->dropped++;
+        record->full = true;
         return;
     }
     record->change[record->changes++] = (update_change_t){update_play_now_us(play), board, look};
@@ -124,6 +124,9 @@ static bool write_drawing(const update_record_t *record, const room_t *room, con
 bool update_record_write(const update_record_t *record, const room_t *room, const char *folder,
                          char error[FILE_ERROR_LENGTH])
 {
+    if (record->full)
+        return file_error(error, folder, "the boards changed more than %d times, expected fewer",
+                          UPDATE_RECORD_CHANGES);
     return folder_make(folder, error) && write_table(record, room, folder, error) &&
            write_drawing(record, room, folder, error);
 }

@@ -21,7 +21,8 @@ typedef struct {
 /** All zero bytes is one that has seen nothing. */
 typedef struct {
     update_change_t change[UPDATE_RECORD_CHANGES];
-    int changes, dropped; /**< of the boards; so many more had no room */
+    int changes; /**< of the boards */
+    bool full;   /**< more of them had no room */
     room_update_step_t step;
     bool switching; /**< the operator's task */
     int64_t end_us;
@@ -31,7 +32,7 @@ typedef struct {
 void update_record_take(update_record_t *record, const update_play_t *play, const room_t *room, FILE *file);
 
 /** Write FOLDER/update.csv and FOLDER/update.svg; the folder is made if it is missing. @return false with the reason in
- *  error. */
+ *  error; so too when changes had no room. */
 bool update_record_write(const update_record_t *record, const room_t *room, const char *folder,
                          char error[FILE_ERROR_LENGTH]);
 
