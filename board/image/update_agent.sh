@@ -84,6 +84,7 @@ set_boot() {
 start() {
     look
     mkdir -p "$folder"
+    rm -f "$fetched" # the supply may have failed while it came
     first=${order%% *}
     if [ "$trial" = 1 ]; then
         tell idle 0 "version $running is on trial"

@@ -128,7 +128,9 @@ make_root
 settled=("BOOT_ORDER=A B" BOOT_A_LEFT=8 BOOT_B_LEFT=3)
 
 board A "${settled[@]}"
+echo half >"$WALLWARP_ROOT/data/update.raucb"
 agent start
+never "start, after a download that was cut short" root/data/update.raucb
 says "start" state=idle slot=A trial=0 running=1.0 waiting= other=1.0 message=
 boots "start" BOOT_A_LEFT=9 "BOOT_ORDER=A B"
 ask "install /new"
