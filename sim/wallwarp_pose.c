@@ -16,6 +16,8 @@ static const struct {
     {"fault", command_fault},   {"command", command_command}, {"update", command_update},
 };
 
+static const char expected[] = "send, bridge, record, replay, monitor, check, fault, command or update";
+
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
 typedef struct {
@@ -32,13 +34,13 @@ static error_t parse_command(int key, char *argument, struct argp_state *state)
         while (choice->number < COMMANDS && strcmp(argument, commands[choice->number].name) != 0)
             choice->number++;
         if (choice->number == COMMANDS)
-            argp_error(state, "no such command: '%s'", argument);
+            argp_error(state, "no such command: '%s', expected %s", argument, expected);
         choice->argc = state->argc - state->next + 1;
         choice->argv = &state->argv[state->next - 1];
         state->next = state->argc; /* the rest is the command's own */
         return 0;
     case ARGP_KEY_NO_ARGS:
-        argp_error(state, "a command is missing");
+        argp_error(state, "a command is missing: %s", expected);
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;

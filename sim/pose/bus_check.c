@@ -208,7 +208,10 @@ static void check_board(bus_judge_t *judge, int node, const bus_watch_board_t *b
     if (board->heartbeat.fault_flags != 0) {
         char names[FAULT_NAMES_LENGTH];
         event_fault_names(names, board->heartbeat.fault_flags);
-        bus_judge_say(judge, false, "board %d: reports a fault: %s", node, names);
+        bus_judge_say(judge, false, "board %d: reports a fault: %s%s", node, names,
+                      (board->heartbeat.fault_flags & (CAN_FAULT_REFUSED | CAN_FAULT_SESSION)) != 0
+                          ? "; it has a key: has who sends the same one, --key FILE?"
+                          : "");
     }
     check_board_time(judge, node, board);
     if (!is_held(board->heartbeat.state))

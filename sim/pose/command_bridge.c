@@ -37,11 +37,11 @@ static void check(struct argp_state *state, options_t *options)
 {
     char error[UDP_LISTEN_MESSAGE_LENGTH];
     if (options->protocol == NULL)
-        argp_error(state, "the protocol is missing");
+        argp_error(state, "the protocol is missing: freed, dtrack, psn, opentrackio or osc");
     command_check_fd(state, options->bus, options->fd);
     command_check_key(state, options->key, options->no_sync);
     if (options->transform == NULL)
-        argp_error(state, "--transform is missing");
+        argp_error(state, "--transform is missing: a file such as those of sim/trackers/examples");
     if (options->listen == NULL)
         options->listen = options->protocol->listen;
     if (!udp_listen_check(options->listen, options->interface, error))

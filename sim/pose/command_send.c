@@ -192,7 +192,10 @@ int command_send(int argc, char **argv)
     pose_list_t list;
     char error[POSE_LIST_MESSAGE_LENGTH] = "out of memory";
     if (!(options.is_motion ? motion_make(&list, &options.motion) : pose_list_load(&list, options.source, error)))
-        return fail("", error);
+        return fail(!options.is_motion && access(options.source, F_OK) != 0
+                        ? "expected a pose list, or still, walk, orbit or noise; "
+                        : "",
+                    error);
     const int status = send_list(&options, &list);
     pose_list_free(&list);
     return status;

@@ -212,7 +212,12 @@ static void test_each_fault_of_a_board_is_said(void **state)
     s = scene();
     s.faults = CAN_FAULT_CAMERA | CAN_FAULT_DEADLINE | 1 << 15;
     play(&s);
-    assert_said(&s, 1, "BAD  board 7: reports a fault: camera, deadline, one of a newer firmware");
+    assert_said(&s, 1, "BAD  board 7: reports a fault: camera, deadline, one of a newer firmware\n");
+
+    s = scene();
+    s.faults = CAN_FAULT_REFUSED;
+    play(&s);
+    assert_said(&s, 1, "BAD  board 7: reports a fault: refused; it has a key: has who sends the same one, --key FILE?");
 
     s = scene();
     s.restarts = true;

@@ -93,7 +93,7 @@ test_bridges() {
 
 test_bad_sends() {
     refuses 2 "a command is missing" "$pose"
-    refuses 2 "no such command: 'bring'" "$pose" bring
+    refuses 2 "no such command: 'bring', expected send, bridge, " "$pose" bring
     set -- "$pose" send --bus 127.0.0.1:1
     refuses 2 "--bus is missing" "$pose" send walk
     refuses 2 "the pose list or the motion is missing" "$@"
@@ -110,16 +110,17 @@ test_bad_sends() {
     refuses 2 "--rate: a pose list has its own" "$@" "$scratch/ten.csv" --rate 5
     refuses 2 "--at: a pose list has its own" "$@" "$scratch/ten.csv" --at "0 0 0 1 0 0 0"
     refuses 1 "missing.csv" "$@" "$scratch/missing.csv"
+    refuses 1 "expected a pose list, or still, walk, orbit or noise; jump: cannot read" "$@" jump
     refuses 1 "farther than 83.886 m" "$@" still --at "90000 0 0 1 0 0 0"
 }
 
 test_bad_bridges() {
     set -- "$pose" bridge freed --bus 127.0.0.1:1 --transform $examples/freed.yaml
-    refuses 2 "the protocol is missing" "$pose" bridge --bus 127.0.0.1:1 --transform $examples/freed.yaml
+    refuses 2 "the protocol is missing: freed, " "$pose" bridge --bus 127.0.0.1:1 --transform $examples/freed.yaml
     refuses 2 "no such protocol: 'vrpn'" "$pose" bridge vrpn --bus 127.0.0.1:1 --transform $examples/freed.yaml
     refuses 2 "one protocol expected" "$@" psn
     refuses 2 "--bus is missing" "$pose" bridge freed --transform $examples/freed.yaml
-    refuses 2 "--transform is missing" "$pose" bridge freed --bus 127.0.0.1:1
+    refuses 2 "--transform is missing: a file" "$pose" bridge freed --bus 127.0.0.1:1
     refuses 2 "expected ADDR:PORT" "$@" --listen 5000
     refuses 2 "not a multicast group" "$@" --interface 127.0.0.1
     refuses 2 "--seconds" "$@" --seconds 0
