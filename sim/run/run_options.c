@@ -68,7 +68,10 @@ static const struct argp_option run_options[] = {
      "\"pattern\"; needed",
      0},
     {"poses", KEY_POSES, "CSV", 0, "Pose list, run in virtual time", 0},
-    {"bus", KEY_BUS, "PORT", 0, "Run in real time with the bus open on 127.0.0.1:PORT; 0 takes any free port", 0},
+    {"bus", KEY_BUS, "PORT", 0,
+     "Run in real time with the bus open on 127.0.0.1:PORT; 0 takes any free port. Without --frames it goes on, "
+     "and keeps the pictures of every frame",
+     0},
     {"out", KEY_OUT, "DIR", 0, "Folder for pictures, tables and the page; needed", 0},
     {"frames", KEY_FRAMES, "N", 0, "End after N frames (default: with the list, or on Ctrl-C)", 0},
     {"method", KEY_METHOD, "M", 0, "Method of every board, in place of the room's", 0},

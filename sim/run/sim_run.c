@@ -5,6 +5,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "firmware/auth_key.h"
 #include "hal/hal_random.h"
@@ -234,6 +235,18 @@ static bool tell(run_t *run)
     return plots_write(&summary, run->error) && ok;
 }
 
+/* A run that ends before its time, on a full disk for one, is told of as well; what is said is why it ended. */
+static bool make_and_tell(run_t *run, const volatile sig_atomic_t *stop)
+{
+    char why[ERROR_LENGTH];
+    const bool made = make_frames(run, stop);
+    memcpy(why, run->error, sizeof why);
+    const bool told = tell(run);
+    if (!made)
+        memcpy(run->error, why, sizeof why);
+    return made && told;
+}
+
 static void close_run(run_t *run)
 {
     char error[FILE_ERROR_LENGTH];
@@ -260,7 +273,7 @@ int sim_run(const sim_run_options_t *options, const volatile sig_atomic_t *stop)
     }
     run->options = options;
     const bool ok = open_inputs(run) && plan(run) && open_key(run) && open_world(run) && open_outputs(run) &&
-                    make_frames(run, stop) && tell(run);
+                    make_and_tell(run, stop);
     if (!ok)
         fprintf(stderr, "%s: %s\n", name, run->error);
     if (run->interrupted)

@@ -40,6 +40,8 @@ typedef struct {
  * Real time: "bus on 127.0.0.1:PORT (socketcand, channel can0)" on stdout, at once. Refreshes that this machine can't
  * hold are skipped and counted; every frame that is made has its pictures.
  *
+ * What can't be written, as on a full disk, ends the run; tables, plots and page are then made of the frames so far.
+ *
  * @param stop  When it becomes non-zero the run ends after the present frame, as if it were the last; in virtual time
  *              stderr then says how many frames are missing.
  * @return The exit status: 0; 1 after an error message, after a stop before the end of a run in virtual time, or when

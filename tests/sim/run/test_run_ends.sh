@@ -66,6 +66,17 @@ full() {
     check "full disk: $*" $?
 }
 
+# What was made before a picture could not be written is told of.
+test_failed_picture() {
+    out=$scratch/failed
+    mkdir -p "$out/front_00003.png"
+    run "$scratch/fd.yaml" --video $picture --poses "$scratch/ten.csv" --out "$out"
+    [ $? -eq 1 ] && grep -q 'wallwarp-sim run: .*front_00003.png: ' "$scratch/stderr"
+    check "a picture that can't be written ends the run: $(cat "$scratch/stderr")" $?
+    grep -q '^front ' "$scratch/stdout" && [ -s "$out/index.html" ] && grep -q '^2,.*,front,' "$out/frames.csv"
+    check "the frames before it have their table and their page" $?
+}
+
 # A run must not delete the pictures that it is made of.
 test_own_input() {
     out=$scratch/own
@@ -162,6 +173,7 @@ test_bad_addresses() {
 }
 
 test_earlier_run
+test_failed_picture
 test_own_input
 test_full_stdout
 test_endless_list
