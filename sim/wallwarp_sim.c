@@ -127,7 +127,8 @@ static const char usage[] = "Usage: wallwarp-sim COMMAND ...\n"
                             "  run     every board of a room runs the real firmware over a simulated bus\n"
                             "  update  all boards of a room to another version, as one, and what goes wrong\n"
                             "  warp    one wall, one pose: one picture\n\n"
-                            "wallwarp-sim COMMAND --help tells the rest. Exit status: 0 done, 1 failed, 2 bad usage.\n";
+                            "`wallwarp-sim COMMAND --help` tells the rest. Exit status: 0 done, 1 failed,\n"
+                            "2 bad usage.\n";
 
 int main(int argc, char **argv)
 {

@@ -151,7 +151,8 @@ int command_monitor(int argc, char **argv)
             "repeat, bad and not_seen are a board's own counts of a viewer's poses: lost on the way, damaged, "
             "repeated or stale, impossible or incomplete, and those in which the tracker does not see the viewer. "
             "in_step is the share of refreshes at which a board was certain to show what all do; those that two "
-            "boards in step, or more, told of are compared, and differed must stay 0.",
+            "boards in step, or more, told of are compared, and differed must stay 0. runs and waiting are "
+            "fingerprints of versions, equal where these are; `wallwarp-pose update --status` names them.",
     };
     static view_t view;
     const options_t options = read_options(&argp, argc, argv);
