@@ -30,6 +30,8 @@ if [ -n "$missing" ]; then
     printf '%s\n%s' "image: Debian has no loader or kernel for $board; these are missing in BOOT=${BOOT-}, expected: make image BOARD=$board BOOT=FOLDER with" "$missing" >&2
     exit 1
 fi
+[ "$(dd if="$BOOT/vmlinuz" bs=4 skip=14 count=1 status=none | tr -d '\0')" = ARMd ] ||
+    { echo "image: $BOOT/vmlinuz: is no kernel that U-Boot's booti starts, expected arch/arm64/boot/Image of its build" >&2; exit 1; }
 modules=$(echo "$BOOT"/modules/*)
 [ -d "$modules" ] || { echo "image: BOOT=$BOOT: expected one folder in modules/, named as the kernel's version" >&2; exit 1; }
 mkdir -p "$out/kernel_tree"/{boot,lib/modules}
@@ -37,5 +39,5 @@ cp "$BOOT/vmlinuz" "$out/kernel_tree/boot/vmlinuz-${modules##*/}"
 cp -r "$modules" "$out/kernel_tree/lib/modules/"
 depmod -b "$out/kernel_tree" "${modules##*/}"
 while read -r name _; do
-    [ "$name" = vmlinuz ] || [ "$name" = modules ] || cp "$BOOT/$name" "$out/boot/"
+    [ "$name" = vmlinuz ] || [ "$name" = modules ] || cp -r "$BOOT/$name" "$out/boot/"
 done < <(grep -v '^#' "$list")
