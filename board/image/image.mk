@@ -87,3 +87,10 @@ test-image: setup-test setup-board setup-image ## Boot the image of the virtual 
 	$(Q)$(MAKE) $(SUB) programs build/host/tests/board/picture_tool
 	$(Q)tests/run.sh build/test-image $(foreach t,$(IMAGE_TESTS) $(wildcard tests/board/image/vm_*.sh),'$(t) build/qemu-virt') \
 	    'tests/board/image/on_used_card.sh build/qemu-virt/wallwarp-qemu-virt.img.xz'
+
+# Not of test-image: the Pi's image has firmware that is not free.
+.PHONY: test-pi
+test-pi: setup-test setup-board setup-image setup-flash ## Look through the image of the Raspberry Pi 4, and start it on QEMU's Pi 3
+	$(Q)$(MAKE) $(SUB) BOARD=rpi4 image
+	$(Q)$(MAKE) $(SUB) BOARD=host BUILD=build/host build/host/wallwarp
+	$(Q)tests/run.sh build/test-pi $(foreach t,pi_card.sh pi_start.sh,'tests/board/image/$(t) build/rpi4')
