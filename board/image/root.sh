@@ -6,6 +6,7 @@
 #                                                             bundles must come from; writes the tree OUT/root and its
 #                                                             squashfs OUT/root.squashfs
 set -eu -o pipefail
+umask 022 # modes do not tell of who has cloned this tree
 [ $# = 5 ] || { echo "usage: board/image/root.sh BOARD DEBIAN CA VERSION OUT" >&2; exit 2; }
 here=$(dirname "$0")
 board=$1

@@ -4,6 +4,7 @@
 #
 # usage: board/image/slot.sh BOARD DEBIAN OUT      writes OUT/kernel.vfat
 set -eu -o pipefail
+umask 022 # modes do not tell of who has cloned this tree
 [ $# = 3 ] || { echo "usage: board/image/slot.sh BOARD DEBIAN OUT" >&2; exit 2; }
 here=$(dirname "$0")
 board=$1
