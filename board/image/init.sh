@@ -52,6 +52,9 @@ busybox mount -t squashfs -o ro "$root" /root || fail "$root: cannot be mounted,
 card=$(device_of card)
 busybox mount -t vfat -o ro,nosuid,nodev,noexec,umask=022 "$card" /root/card ||
     say "partition \"card\" cannot be mounted: put the card into a PC and repair it, or flash it anew"
+# So that boards of a room can be told apart on the network and in their logs.
+node=$(busybox sed -n 's/^node: *\([0-9][0-9]*\).*/\1/p' /root/card/wallwarp.yaml)
+busybox hostname "wallwarp${node:+-$node}"
 busybox mount -t tmpfs -o nosuid,nodev,mode=1777,size=64m tmp /root/tmp
 busybox mount -t tmpfs -o nosuid,nodev,mode=755,size=64m var /root/var
 busybox mkdir -p /root/var/lib /root/var/log /root/var/cache /root/var/spool

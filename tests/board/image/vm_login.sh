@@ -38,13 +38,16 @@ card_up 300
 ok $? "the board does not start: $(tail -n 5 "$VM/console")"
 vm_monitor "hostfwd_add net tcp:127.0.0.1:0-:22" >/dev/null
 port=$(forwarded)
+# It makes a key of its own first.
 for ((i = 0; i < 60; i++)); do
-    card_run 'systemctl is-active wallwarp-ssh' >/dev/null && break
+    login owner true 2>"$VM/said" && break
     sleep 1
 done
 
-login owner 'id -un; cat /etc/hostname' >"$VM/said" 2>&1
+login owner 'id -un; hostname; resolvectl mdns' >"$VM/said" 2>&1
 said "with a key of the card's" '^root$'
+said "its name" '^wallwarp-1$'
+said "its name, by multicast" '^Link .* (eth0): yes$'
 ! login stranger id >"$VM/said" 2>&1
 ok $? "a stranger's key logs in"
 said "a stranger's key" 'Permission denied (publickey)'
@@ -64,6 +67,11 @@ ok $? "the clock is older than the image: $(tail -n 1 "$VM/said")"
 login owner 'cat >/data/room.new && sync && mv /data/room.new /data/room.yaml && md5sum </data/room.yaml' \
     <sim/demo/room.yaml >"$VM/said"
 said "a room file by SSH" "$(md5sum <sim/demo/room.yaml)"
+# The firmware reads once a second what the update agent says.
+login owner 'sleep 2; wallwarp-pose command --bus can0 --node 1 hello
+    wallwarp-pose update --bus can0 /card/room.yaml --status' >"$VM/said" 2>&1
+said "commands from the board itself" '^board 1: wallwarp '
+said "updates from the board itself" '^ *1  *A  *front: runs .*, idle$'
 
 login owner sync >"$VM/said" 2>&1
 vm_stop
