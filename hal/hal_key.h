@@ -19,7 +19,7 @@ typedef struct {
  * `(umask 077; od -An -N16 -tx1 /dev/urandom | tr -d ' ' >FILE)`.
  *
  * The file must be a regular one (no link, no pipe), belong to the user who reads it, and give nobody else any right:
- * mode 0600 or less.
+ * mode 0600 or less. Root, who looks after a board, may read the firmware's.
  *
  * @param[out] key    Written only when HAL_OK is returned. Wipe it with hal_key_wipe() when it has been used.
  * @param[out] error  On failure: one line, "FILE: what was found, what was expected". It holds nothing of the key.

@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -69,14 +70,21 @@ static void files_that_others_may_use_are_refused(void **state)
     }
 }
 
-static void files_of_others_are_refused(void **state)
+static void files_of_others_are_refused_but_by_root(void **state)
 {
+    const bool root = geteuid() == 0;
+    char error[HAL_KEY_ERROR_LENGTH] = "";
+    hal_key_t key;
     write_key(state, GOOD, strlen(GOOD), 0600);
-    if (geteuid() == 0)
+    if (root) {
         assert_int_equal(chown(path, 1, 1), 0);
-    else
-        snprintf(path, sizeof path, "/etc/passwd");
-    assert_refused(HAL_BAD_CALL, "belongs to user");
+        assert_int_equal(hal_key_load(&key, path, error), HAL_OK);
+        assert_int_equal(seteuid(1), 0);
+    }
+    snprintf(path, sizeof path, "/etc/passwd");
+    assert_refused(HAL_BAD_CALL, "belongs to user 0, expected the reader, user ");
+    if (root)
+        assert_int_equal(seteuid(0), 0);
 }
 
 static void texts_that_are_no_key_are_refused(void **state)
@@ -127,8 +135,10 @@ static void what_is_no_file_is_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(good_files_are_read),         cmocka_unit_test(files_that_others_may_use_are_refused),
-        cmocka_unit_test(files_of_others_are_refused), cmocka_unit_test(texts_that_are_no_key_are_refused),
+        cmocka_unit_test(good_files_are_read),
+        cmocka_unit_test(files_that_others_may_use_are_refused),
+        cmocka_unit_test(files_of_others_are_refused_but_by_root),
+        cmocka_unit_test(texts_that_are_no_key_are_refused),
         cmocka_unit_test(what_is_no_file_is_refused),
     };
     return cmocka_run_group_tests(tests, scratch_set_up, scratch_tear_down);
