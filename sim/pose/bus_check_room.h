@@ -10,7 +10,8 @@
 
 /**
  * Print a line for each board of the room that is silent, for each that is heard but not of the room, for each viewer
- * that boards follow and that has no poses while another has, all bad; and for each that has poses which nobody
+ * that boards follow and that has no poses while another has, for each whose newest pose is within 20 mm of the origin,
+ * as in metres, or behind the wall of a board that follows it, all bad; and for each that has poses which nobody
  * follows. A bus without any frame gets no line: bus_check_print() says that.
  *
  * @param watch  As for bus_check_print(), which looks at what is there.
