@@ -18,6 +18,9 @@ $(if $(filter $(BOARD),$(BOARDS)),,$(error BOARD=$(BOARD): there is no board/$(B
 include board/$(BOARD)/board.mk
 $(if $(filter sim linux,$(HAL)),,$(error board/$(BOARD)/board.mk: HAL is "$(HAL)"; expected sim or linux))
 
+# Debian's users do not have these; tools that make file systems and partitions are in them.
+export PATH := $(PATH):/usr/sbin:/sbin
+
 # What a variant build changes: make BUILD=build/clang-O0 CC=clang OPT=-O0
 CC    := $(CROSS)gcc
 CXX   := $(CROSS)g++
@@ -215,7 +218,7 @@ kernel_check = $(call emulated,$(1))build/variants/$(1)/check_kernels
 # SIMDe is slow without optimisation.
 levels       = scalar $(if $(filter %-O3,$(1)),neon)
 # These need what makes images, and are of test-image.
-IMAGE_TESTS  := $(addprefix tests/board/image/test_,boot_script.sh bundle.sh modules.sh pi_modules.sh update_agent.sh)
+IMAGE_TESTS  := $(addprefix tests/board/image/test_,boot_script.sh bundle.sh modules.sh pi_modules.sh sizes.sh update_agent.sh)
 SCRIPTS      := $(filter-out tests/board/virtual/% $(IMAGE_TESTS),$(wildcard tests/*/test_*.sh tests/*/*/test_*.sh))
 # The scripts alone: some judge what programs do in real time.
 RUN_TESTS     = $(foreach t,$(TESTS),'$(t)') $(foreach v,$(KERNEL_VARIANTS),'$(call kernel_check,$(v))') \
