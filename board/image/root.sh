@@ -21,7 +21,7 @@ version=$(basename "$kernel"/lib/modules/*)
 copy_programs() {
     rm -rf "$root"
     mkdir -p "$root"
-    tar -C "$debian/root" -c -X "$here/root_without" . | tar -C "$root" -x
+    tar -C "$debian/root" -c -X "$here/root_without" . | tar -C "$root" -xp
     # What a licence asks to be with each copy.
     (cd "$debian/root" && find usr/share/doc -name copyright -type f | tar -c -T -) | tar -C "$root" -x
     mkdir -p "$root"/{boot,card,data,dev,proc,sys,run,tmp,var}
@@ -71,6 +71,11 @@ copy_modules() {
     depmod -b "$root/usr" "$version"
 }
 
+# copy_tree FOLDER: with modes that do not tell of who has checked it out.
+copy_tree() {
+    tar -C "$1" --mode=u=rwX,go=rX -c . | tar -C "$root" -x --no-overwrite-dir
+}
+
 copy_firmware() {
     local program
     for program in wallwarp wallwarp-pose; do
@@ -83,8 +88,8 @@ copy_firmware() {
     install -D -m 644 -t "$root/etc/systemd/network" board/service/80-wallwarp-can.network
     install -D -m 644 -t "$root/etc/systemd/system" board/service/wallwarp.service
     "$here/update_files.sh" "$board" "$root" "$ca" "$update_version"
-    cp -r "$here/tree/." "$root/"
-    [ ! -d "board/$board/tree" ] || cp -r "board/$board/tree/." "$root/"
+    copy_tree "$here/tree"
+    [ ! -d "board/$board/tree" ] || copy_tree "board/$board/tree"
 }
 
 # What Debian's packages do when they are installed.
@@ -93,6 +98,11 @@ set_up() {
     cat "$root"/usr/share/ca-certificates/mozilla/*.crt >"$root/etc/ssl/certs/ca-certificates.crt"
     rm -rf "$root/usr/share/ca-certificates"
     systemd-sysusers --root="$root" 2>"$out/users.log"
+    # What is made by others than root: of mode 0 these would be empty, and no program can be given another's rights,
+    # which none on a board needs.
+    chmod 600 "$root"/etc/shadow "$root"/etc/gshadow
+    chmod 1777 "$root/tmp"
+    find "$root" -perm /6000 -exec chmod a-s {} +
     ln -sfn /usr/lib/systemd/system/multi-user.target "$root/etc/systemd/system/default.target"
     xargs systemctl --root="$root" --quiet enable <"$here/enabled_units"
     systemctl --root="$root" --quiet disable systemd-network-generator.service systemd-networkd-wait-online.service

@@ -120,7 +120,6 @@ switch() {
     fi
     set_boot "BOOT_ORDER=$other $slot" "BOOT_${other}_LEFT=$trial_starts" "BOOT_UPDATE=trial $other" || return
     tell switching 100 "to version $fit"
-    answered
     systemctl reboot
 }
 

@@ -125,7 +125,7 @@ never() { [ ! -e "$folder/$2" ]; ok $? "$1: no $2"; }
 happened() { [ -e "$folder/$2" ]; ok $? "$1: $2"; }
 
 make_root
-settled=("BOOT_ORDER=A B" BOOT_A_LEFT=8 BOOT_B_LEFT=3)
+settled=("BOOT_ORDER=A B" BOOT_A_LEFT=8 BOOT_B_LEFT=1)
 
 board A "${settled[@]}"
 echo half >"$WALLWARP_ROOT/data/update.raucb"
