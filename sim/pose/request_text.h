@@ -25,7 +25,8 @@ bool request_from_text(command_t *request, const char *name, const char *value,
 /** @return "freeze"; "unknown" when there is no such request. */
 const char *request_name(uint8_t kind);
 
-/** " area", " on", " grid", " 40 ms", " install": what was asked for, by its command_argument(); "" when nothing can be. */
+/** " area", " on", " grid", " 40 ms", " install": what was asked for, by its command_argument(); "" when nothing can
+ * be. */
 void request_argument_text(char text[REQUEST_ARGUMENT_LENGTH], uint8_t kind, uint8_t argument);
 
 /** @return A short word: "done", "unknown", "bad value", "refused", "impossible". */
