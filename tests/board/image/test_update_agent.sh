@@ -196,6 +196,7 @@ boots "an altered payload" BOOT_ORDER=A BOOT_UPDATE=
 board A "${settled[@]}"
 ask "install http://host/new"
 says "from the network" state=ready waiting=2.0
+never "network: what was fetched stays" root/data/update.raucb
 ask "install http://host/none"
 says "not in the network" state=failed "message=can't fetch http://host/none: *404*"
 ask "install http://host/slow"
@@ -240,6 +241,8 @@ never "a stick on trial" installs
 says "a stick on trial" state=idle
 
 board A "${settled[@]}"
+ask $'install http://host/\xc3\xa4\x1b'
+says "not a letter" state=failed "message=can't fetch http://host/\?\?\?: *"
 for line in "" install "install  " "switch now" "install ftp://host/x" "install x" "$(head -c 9000 /dev/zero | tr '\0' x)" $'goo\x01d'; do
     rm -f "$state"
     ask "$line"
