@@ -6,6 +6,7 @@
 # usage: board/initramfs.sh BUSYBOX INIT MODULES OUT MODULE...      MODULES is a folder that has lib/modules/VERSION; a
 #                                                                   MODULE may have parameters behind it, in one word
 set -eu -o pipefail
+umask 022 # whoever makes it: the same bytes
 [ $# -ge 4 ] || { echo "usage: board/initramfs.sh BUSYBOX INIT MODULES OUT MODULE..." >&2; exit 2; }
 busybox=$1
 init=$2

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Kernel modules of a first file system: each after those that it needs, and none may be left out without a word.
+# Kernel modules of a first file system: each after those that it needs, and none may be left out without a word. The
+# same bytes whoever packs them.
 # Usage, from the tree's root, after `make image`: tests/board/image/test_modules.sh
 set -u
 # shellcheck source=tests/support/checks.sh
@@ -20,6 +21,10 @@ pack ext4 'vivid n_devs=1'
 ok $? "modules of the kernel are not packed"
 order=$(cd "$folder" && gzip -dc out | cpio -i --quiet --to-stdout modules/order)
 ok "$([[ $order =~ jbd2.ko.*ext4.ko.*videodev.ko.*vivid.ko\ n_devs=1 ]]; echo $?)" "found the order \"$order\""
+
+mv "$folder/out" "$folder/first"
+(umask 077 && pack ext4 'vivid n_devs=1') && cmp "$folder/first" "$folder/out" >"$folder/said"
+ok $? "another umask makes other bytes"
 
 ! pack ext4 no_such_module vfat
 ok $? "a module that is not there is left out, and all after it"
