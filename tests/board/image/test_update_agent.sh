@@ -243,6 +243,9 @@ says "a stick on trial" state=idle
 board A "${settled[@]}"
 ask $'install http://host/\xc3\xa4\x1b'
 says "not a letter" state=failed "message=can't fetch http://host/\?\?\?: *"
+board A "BOOT_ORDER=A B" BOOT_A_LEFT=8 BOOT_B_LEFT=0
+agent start
+says "a slot without a start left" other=
 for line in "" install "install  " "switch now" "install ftp://host/x" "install x" "$(head -c 9000 /dev/zero | tr '\0' x)" $'goo\x01d'; do
     rm -f "$state"
     ask "$line"
