@@ -30,7 +30,8 @@ fi
 fat_image "$out/card.vfat" 64 WALLWARP "$card"
 rm -f "$out/data.ext4"
 truncate -s 64M "$out/data.ext4"
-E2FSPROGS_FAKE_TIME=$SOURCE_DATE_EPOCH mke2fs -q -t ext4 -L data -U 7a11ba5e-0000-4000-8000-000000000007 \
+# Few files: so little is to be written when it grows to the end of a large card.
+E2FSPROGS_FAKE_TIME=$SOURCE_DATE_EPOCH mke2fs -q -t ext4 -b 4096 -i 65536 -L data -U 7a11ba5e-0000-4000-8000-000000000007 \
     -E hash_seed=7a11ba5e-0000-4000-8000-000000000008,lazy_itable_init=0,root_owner=0:0 "$out/data.ext4"
 
 # A chip whose ROM looks for its loader at 32 KiB needs room for that before the first partition.
