@@ -9,12 +9,19 @@
 #
 #   card_insert FOLDER IMAGE        VM=FOLDER, with a copy of the image as its card, 512 MiB larger
 #   card_power [QEMU_OPTION...]     on; returns at once
+#   card_keep NAME                  the board as it is, memory and card, into $VM/NAME.*; it is off then
+#   card_back NAME [QEMU_OPTION...] goes on as it was kept; VM has no sticks in it, then and now
 #   card_up [SECONDS]               until commands can be run. False after that time (120), or when the board has ended
 #   card_run [-t SECONDS] COMMAND   as vm_run
 #   card_boots                      how many times U-Boot has started a slot since card_power
 #   card_slot                       which slot it has started last
 #   card_state NAME                 of the boot state on the card; the board is to be off
+#   card_at PARTITION               prints the byte of $VM/card at which it begins
+#   card_count NAME                 rd_bytes, wr_bytes, operations: what the board has done with its card since card_power
+#                                   or card_back; seconds: of its clock, when it has the QEMU_OPTION -rtc clock=vm
 CARD_SECONDS=1800
+# How long U-Boot waits for a key; 2 s in Debian's.
+card_delay=0
 
 card_insert() {
     VM=$1
@@ -22,9 +29,16 @@ card_insert() {
     rm -rf "$VM"
     mkdir -p "$VM/web" || return 1
     cp --sparse=always "$2" "$VM/card" && truncate -s +512M "$VM/card"
+    sed "s/bootdelay=2/bootdelay=$card_delay/" /usr/lib/u-boot/qemu_arm64/u-boot.bin >"$VM/rom"
+    local state
+    state=$(card_at state)
+    printf '%s %#x 0x200\n' "$VM/card" "$state" "$VM/card" $((state + 0x80000)) >"$VM/fw_env.config"
+}
+
+card_at() {
     local start
-    start=$(sfdisk -d "$VM/card" 2>/dev/null | sed -n 's/.*start= *\([0-9]*\),.*name="state".*/\1/p')
-    printf '%s %#x 0x200\n' "$VM/card" $((start * 512)) "$VM/card" $((start * 512 + 0x80000)) >"$VM/fw_env.config"
+    start=$(sfdisk -d "$VM/card" 2>/dev/null | sed -n 's/.*start= *\([0-9]*\),.*name="'"$1"'".*/\1/p')
+    echo $((start * 512))
 }
 
 card_power() {
@@ -45,12 +59,34 @@ card_power() {
     vm_qmp qmp_capabilities '{}' >/dev/null
 }
 
+card_keep() {
+    local until=$((SECONDS + 60))
+    vm_qmp stop '{}' >/dev/null && vm_qmp migrate "{\"uri\": \"exec:cat >$VM/$1.memory\"}" >/dev/null
+    until vm_qmp query-migrate '{}' | grep -q '"status": "completed"'; do
+        [ $SECONDS -lt $until ] && vm_alive || return 1
+    done
+    cp --sparse=always "$VM/card" "$VM/$1.card"
+    vm_stop
+}
+
+card_back() {
+    local until=$((SECONDS + 60)) name=$1
+    shift
+    vm_stop
+    cp --sparse=always "$VM/$name.card" "$VM/card"
+    card_power -incoming "exec:cat $VM/$name.memory" "$@"
+    until vm_qmp query-status '{}' | grep -q '"status": "paused"'; do
+        [ $SECONDS -lt $until ] && vm_alive || return 1
+    done
+    vm_qmp cont '{}' >/dev/null
+}
+
 # Its second CAN controller is somebody else on the bus. A restart of the board is one, not the end.
 card_qemu() {
     # Without acpi=off qemu leaves out the board's lines.
     exec timeout -k 5 "$CARD_SECONDS" qemu-system-aarch64 -M virt,acpi=off -cpu cortex-a72 -smp 2 -m 1024 \
-        -accel "${VM_ACCEL-tcg,thread=multi}" -nodefaults -display none -bios /usr/lib/u-boot/qemu_arm64/u-boot.bin \
-        -drive "file=$VM/card,format=raw,if=virtio" \
+        -accel "${VM_ACCEL-tcg,thread=multi}" -nodefaults -display none -bios "$VM/rom" \
+        -drive "file=$VM/card,format=raw,if=virtio,id=card" \
         -chardev "pipe,id=serial,path=$VM/serial,logfile=$VM/console" -serial chardev:serial \
         -chardev "pipe,id=monitor,path=$VM/monitor" -mon chardev=monitor,mode=control \
         -netdev "user,id=net,restrict=on,guestfwd=tcp:10.0.2.100:80-cmd:tests/board/image/web.sh $VM/web" \
@@ -110,4 +146,17 @@ card_slot() {
 
 card_state() {
     fw_printenv -c "$VM/fw_env.config" -n "$1" 2>/dev/null
+}
+
+card_count() {
+    case $1 in
+    # What its clock's chip has at its first register.
+    seconds) echo $(($(vm_monitor 'xp /1wx 0x9010000' | sed 's/.*: //'))) ;;
+    *)
+        vm_monitor 'info blockstats' | awk -F '[ =]' -v name="$1" '/^card: / {
+            for (i = 2; i < NF; i++) n[$i] = $(i + 1)
+            n["operations"] = n["rd_operations"] + n["wr_operations"]
+            print n[name] }'
+        ;;
+    esac
 }

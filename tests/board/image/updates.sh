@@ -11,6 +11,7 @@
 #   stick_plug BUNDLE     puts a stick with it into the board
 #   stick_pull            takes it out
 #   settings_make         leaves a settings file on the data partition
+#   data_fill             leaves no free byte on the data partition
 #   settings_kept         whether that is as it was, and what the card's first partition has
 updates_seconds=400
 
@@ -73,4 +74,10 @@ settings_make() {
 
 settings_kept() {
     [ "$(card_run 'cat /data/room.yaml; md5sum /card/*')" = "$settings" ]
+}
+
+# With next to nothing to write, which takes a busy machine its time.
+data_fill() {
+    card_run 'systemctl start wallwarp-grow; fallocate -l "$(df -k /data | awk "END { print \$4 - 1000 }")k" /data/full
+        dd if=/dev/zero of=/data/full2 bs=512; sync; df -k /data' | tail -n 1 | grep -q ' 0 100%'
 }

@@ -50,6 +50,7 @@ to_corrected() {
 }
 
 trap vm_stop EXIT
+card_delay=2
 card_insert build/vm-start "$build/wallwarp-qemu-virt.img" || exit 1
 card_power -rtc base=1970-01-01,clock=vm
 if ! card_up 300; then

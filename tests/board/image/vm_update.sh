@@ -95,7 +95,8 @@ refuses other 'refused: for wallwarp-rpi4, this board is wallwarp-qemu-virt'
 refuses cut 'refused: .*Signature.*exceeds'
 refuses altered 'not installed'
 refuses missing "can't fetch .*404"
-card_run 'dd if=/dev/zero of=/data/full bs=1M; dd if=/dev/zero of=/data/full2 bs=1k' >/dev/null
+data_fill
+ok $? "the data partition can't be filled"
 refuses small 'the data partition is too full for'
 card_run 'rm /data/full /data/full2'
 
