@@ -6,6 +6,7 @@
 
 #include "firmware/can_e2e.h"
 #include "firmware/can_latency.h"
+#include "firmware/can_update.h"
 #include "sim/bus/candump_text.h"
 #include "sim/pose/motion.h"
 #include "sim/pose/pose_frames.h"
@@ -13,7 +14,10 @@
 
 static const char USAGE[] =
     "usage: wire_tool frames POSE fd|classic   the pose with each counter once, a frame a line, as cansend takes it\n"
-    "       wire_tool reports <LOG             of candump -L: what the one board in it says of its time\n";
+    "       wire_tool reports <LOG             of candump -L: what the one board in it says of its time\n"
+    "       wire_tool updates <LOG             what it says of its update, a line for each change; then the frames "
+    "that it\n"
+    "                                          has shown and its faults, as its Heartbeat had them last\n";
 
 static int fail(const char *error)
 {
@@ -121,6 +125,32 @@ static int sum_reports(FILE *log)
     return 0;
 }
 
+static bool same_words(const can_update_t *a, const can_update_t *b)
+{
+    return a->state == b->state && a->slot == b->slot && a->trial == b->trial && a->plan == b->plan;
+}
+
+static int print_updates(FILE *log)
+{
+    static const char *const slot[] = {"-", "A", "B"}, *const plan[] = {"no", "promised", "confirmed"};
+    char line[CANDUMP_TEXT_LENGTH], interface[CANDUMP_INTERFACE_LENGTH];
+    can_heartbeat_t heartbeat = {.node = 0};
+    can_update_t update, told = {.state = CAN_UPDATE_STATES};
+    hal_can_frame_t frame;
+    while (fgets(line, sizeof line, log) != NULL) {
+        const char *expected = candump_frame_from_text(&frame, interface, line);
+        if (expected != NULL)
+            return fail(expected);
+        if (can_heartbeat_decode(&heartbeat, &frame) == CAN_CHECK_OK ||
+            can_update_decode(&update, &frame) != CAN_CHECK_OK || same_words(&update, &told))
+            continue;
+        told = update;
+        printf("%s %s %s %s %" PRIu32 " 0x%03" PRIx32 "\n", can_update_state_name(update.state), slot[update.slot],
+               update.trial ? "trial" : "good", plan[update.plan], heartbeat.frame_number, heartbeat.fault_flags);
+    }
+    return 0;
+}
+
 int main(int argc, char **argv)
 {
     const bool fd = argc == 4 && strcmp(argv[3], "fd") == 0;
@@ -128,6 +158,8 @@ int main(int argc, char **argv)
         return print_frames(argv[2], fd);
     if (argc == 2 && strcmp(argv[1], "reports") == 0)
         return sum_reports(stdin);
+    if (argc == 2 && strcmp(argv[1], "updates") == 0)
+        return print_updates(stdin);
     fputs(USAGE, stderr);
     return 2;
 }

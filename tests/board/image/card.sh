@@ -13,6 +13,8 @@
 #   card_back NAME [QEMU_OPTION...] goes on as it was kept; VM has no sticks in it, then and now
 #   card_up [SECONDS]               until commands can be run. False after that time (120), or when the board has ended
 #   card_run [-t SECONDS] COMMAND   as vm_run
+#   card_shows PROGRAM...           soon its display shows what this says of the screenshot $VM/seen.ppm
+#   card_edit SED FILE              changes a file of its first partition, as on a laptop
 #   card_boots                      how many times U-Boot has started a slot since card_power
 #   card_slot                       which slot it has started last
 #   card_state NAME                 of the boot state on the card; the board is to be off
@@ -127,6 +129,19 @@ card_run() {
     done
     vm_alive && return 124
     return 125
+}
+
+card_shows() {
+    local i
+    for ((i = 0; i < 60; i++)); do
+        vm_screenshot "$VM/seen.ppm" && "$@" && return 0
+        sleep 0.5
+    done
+    return 1
+}
+
+card_edit() {
+    card_run "mount -o remount,rw /card && sed -i '$1' '/card/$2' && mount -o remount,ro /card" >/dev/null
 }
 
 # Where in $VM/console its newest start begins.

@@ -1,8 +1,17 @@
 # shellcheck shell=bash
 # shellcheck disable=SC2016 # the board expands what is in commands
 # SPDX-License-Identifier: Apache-2.0
-# The update agent of a virtual board with a card, its sticks and its settings, for scripts to source after card.sh.
+# The update agent of a virtual board with a card, its operator on the bus, its sticks and its settings, for scripts to
+# source after card.sh.
 #
+#   bus_up                after each start: the other end of its bus is somebody, who notes what it says in
+#                         /data/heard, and has the room file as it was
+#   agent_heard           soon its Update tells of its agent: not in its first seconds, nor with broken settings
+#   bus_heard             what its Update said, as `wire_tool updates` tells it
+#   room_update OPTION... `wallwarp-pose update` on that bus
+#   room_switch VERSION   tells it over the bus to switch; then goes_down
+#   restart_is_end        from now on qemu ends when the board restarts: its CAN is out of step after a reset
+#   goes_down OPTION...   soon it does, and gets power again, as card_power
 #   request LINE          tells the agent, as the firmware does
 #   said                  prints its state file
 #   becomes 'LINE...'     soon its state file has all these lines
@@ -14,6 +23,47 @@
 #   data_fill             leaves no free byte on the data partition
 #   settings_kept         whether that is as it was, and what the card's first partition has
 updates_seconds=400
+
+# Until all else has ended, so that the last word of a board that goes down is noted too.
+bus_up() {
+    card_run 'ip link set can1 up txqueuelen 64 type can bitrate 500000
+        [ -e /data/operator.yaml ] || cp /card/room.yaml /data/operator.yaml
+        systemd-run -q -p DefaultDependencies=no sh -c "exec candump -L can1,681:7FF,701:7FF >>/data/heard"
+        candump -n 1 -T 5000 can1,701:7FF | grep -q .'
+}
+
+agent_heard() {
+    card_run 'for i in 1 2 3 4 5 6 7 8 9 10; do
+        candump -n 1 -T 5000 can1,681:7FF | grep -q "\[8\]  .. [1-5]" && exit; done; false'
+}
+
+bus_heard() {
+    # Of a full data partition there may be a line that was cut.
+    card_run 'cat /data/heard' | grep -x '([0-9.]*) can1 [0-9A-F]*#[0-9A-F]*' |
+        "${host:-build/host}/tests/board/wire_tool" updates
+}
+
+room_update() {
+    card_run -t $updates_seconds "wallwarp-pose update --bus can1 /data/operator.yaml $* 2>/dev/null"
+}
+
+# Seen of qemu 7.2: after a reset of the board its kvaser_pci may call every frame that it receives an overrun.
+restart_is_end() {
+    vm_qmp set-action '{"reboot": "shutdown"}' >/dev/null
+}
+
+room_switch() {
+    restart_is_end
+    card_run "wallwarp-pose update --bus can1 /data/operator.yaml --switch --version $1 >/data/operator 2>&1 &"
+}
+
+goes_down() {
+    local until=$((SECONDS + updates_seconds))
+    while [ $SECONDS -lt $until ] && vm_alive; do
+        sleep 1
+    done
+    ! vm_alive && card_power "$@"
+}
 
 request() {
     card_run "echo '$1' >/run/wallwarp/update/new; mv /run/wallwarp/update/new /run/wallwarp/update/request" >/dev/null

@@ -13,16 +13,6 @@ host=${2:-build/host}
 pose='0 -1200 -800 0.9375 0 0.34375 0'
 most_seconds=20
 
-# shows PROGRAM...: soon the display shows what this says of a screenshot.
-shows() {
-    local i
-    for ((i = 0; i < 60; i++)); do
-        vm_screenshot "$VM/seen.ppm" && "$@" && return 0
-        sleep 0.5
-    done
-    return 1
-}
-
 # The camera's picture, which stands still, into $VM/frame.png: over the serial line, as the image has no other way out.
 record_frame() {
     card_run 'systemctl stop wallwarp
@@ -60,7 +50,7 @@ if ! card_up 300; then
     exit
 fi
 "$host/tests/board/picture_tool" safe 320 240 1 front "no pose yet" >"$VM/safe.ppm"
-shows cmp -s "$VM/seen.ppm" "$VM/safe.ppm"
+card_shows cmp -s "$VM/seen.ppm" "$VM/safe.ppm"
 ok $? "the wall does not show the safe picture"
 kernel=$(before_kernel)
 firmware=$(card_run 'systemctl show wallwarp -p ExecMainStartTimestampMonotonic --value' | awk '{ print $1 / 1000000 }')
@@ -72,7 +62,7 @@ card_run "ip link set can1 up txqueuelen 64 type can bitrate 500000
 picture=$(to_corrected)
 "$host/wallwarp-sim" warp board/qemu-virt/room.yaml --board front --in "$VM/frame.png" --out "$VM/wanted.png" \
     --pose "$("$host/tests/board/picture_tool" pose "$pose" classic)"
-shows "$host/tests/board/picture_tool" differ "$VM/seen.ppm" "$VM/wanted.png" >"$VM/differ"
+card_shows "$host/tests/board/picture_tool" differ "$VM/seen.ppm" "$VM/wanted.png" >"$VM/differ"
 ok $? "the wall does not show the simulator's picture: $(tail -n 1 "$VM/differ")"
 echo "power-on to the kernel $kernel s, to the firmware's start $firmware s more, to the corrected picture $picture s more"
 awk "BEGIN { exit !($kernel > 0 && $firmware > 0 && $picture > 0 && $kernel + $firmware + $picture <= $most_seconds) }"

@@ -1,17 +1,22 @@
 #!/bin/bash
 # shellcheck disable=SC2016 # the board expands what is in commands
 # SPDX-License-Identifier: Apache-2.0
-# Updates of an image on the virtual board: bundles that it must refuse, one from a stick that proves itself, and two whose
-# firmware crashes and hangs, from which the board comes back by itself. Its settings stay.
-# Usage, from the tree's root: tests/board/image/vm_update.sh BUILD_FOLDER_OF_THE_BOARD
+# Updates of an image on the virtual board. An operator on its bus has it install bundles that it must refuse, and one
+# that proves itself, but not before it has shown its healthy frames. It comes back by itself from a version that shows
+# none, as its settings are broken, and from two from a stick whose firmware crashes and hangs. Its settings stay.
+# Usage, from the tree's root: tests/board/image/vm_update.sh BUILD_FOLDER_OF_THE_BOARD [BUILD_FOLDER_OF_THE_HOST]
 set -u
-build=${1:?usage: vm_update.sh BUILD_FOLDER_OF_THE_BOARD}
+build=${1:?usage: vm_update.sh BUILD_FOLDER_OF_THE_BOARD [BUILD_FOLDER_OF_THE_HOST]}
+host=${2:-build/host}
 . tests/board/virtual/vm.sh
 . tests/board/image/card.sh
 . tests/board/image/bundles.sh
 . tests/board/image/updates.sh
 . tests/support/checks.sh
 folder=build/vm-update-bundles
+# By its clock the certificate of good bundles has expired, too; what counts is when they were signed.
+later=(-rtc base=2035-01-01)
+good_frames=600 # UPDATE_GOOD_FRAMES of firmware/update.h
 
 # small_bundle NAME BOARD KEYS: of the right form, with next to nothing in it.
 small_bundle() {
@@ -45,13 +50,111 @@ make_bundles() {
     bundle_make "$folder/hang.raucb" 4.0 '(sleep 3; kill -STOP $$) & exec /usr/local/bin/wallwarp.real "$@"'
 }
 
-# refuses NAME WHAT: the bundle of the web server is not installed, and the message is about this.
+# refuses NAME WHAT: the bundle of the web server is not installed, and the operator and the board's log are told this.
 refuses() {
-    request "install http://10.0.2.100/$1.raucb"
-    becomes state=failed && said | grep -q "^message=$2"
-    ok $? "$1.raucb: it says $(said | tr '\n' ' ')"
+    local said
+    said=$(room_update --install "http://10.0.2.100/$1.raucb")
+    [ $? = 1 ] && grep -q "^ *1  A  *front: runs .*, failed: $2" <<<"$said"
+    ok $? "$1.raucb: the operator is told $said"
+    card_run 'journalctl -b -o cat -u wallwarp-update' | grep -q "^update: $2"
+    ok $? "$1.raucb: the board's log does not have \"$2\""
     [ "$(said | sed -n 's/^waiting=//p')" = "" ]
     ok $? "$1.raucb waits for the switch"
+}
+
+# says LINE...: since the last time the board's Update has said these one after the other, maybe more between them, and
+# nothing after the last.
+says() {
+    local line heard at=0
+    heard=$(bus_heard)
+    for line in "$@"; do
+        at=$(awk -v "at=$at" -v "line=$line" 'NR > at && index($0, line " ") == 1 { print NR; exit }' <<<"$heard")
+        [ "$at" ] || break
+    done
+    [ "$at" ] && [ "$at" = "$(wc -l <<<"$heard")" ]
+    ok $? "its Update has not said \"$line\" in turn, or has said more: $heard"
+    card_run 'echo >/data/heard'
+}
+
+# Over the bus, from the bundle of the web server to the mark that it is good.
+test_bus() {
+    room_update --install http://10.0.2.100/2.raucb | grep -qx 'all 1 boards have 2.0: --switch starts them in it'
+    ok $? "2.0 is not installed: $(said)"
+    room_switch 2.0
+    goes_down "${later[@]}" && card_up 300 && bus_up && agent_heard
+    ok $? "2.0 does not come up; the operator was told $(card_run 'cat /data/operator')"
+    [ "$(card_slot)" = B ]
+    ok $? "it starts in slot $(card_slot), expected B"
+    room_update --switch --version 2.0 | grep -qx 'all 1 boards run 2.0, and have marked it good'
+    ok $? "2.0 is not marked good: $(said)"
+    local frames
+    frames=$(bus_heard | sed -n 's/^idle B good no \([0-9]*\) .*/\1/p')
+    [ "${frames:-0}" -ge $good_frames ]
+    ok $? "it was marked good after ${frames:-no} frames, expected $good_frames at least"
+    says 'failed A good no' 'installing A good no' 'ready A good no' 'ready A good promised' 'ready A good confirmed' \
+        'switching A good no' 'idle B trial no' 'idle B good no'
+    settings_kept
+    ok $? "the settings are not what they were"
+}
+
+# tells REASON: on the wall, in the log and on the bus.
+tells() {
+    card_shows shows_reason "$1"
+    ok $? "the wall does not say \"$1\""
+    card_run 'journalctl -b -o cat -u wallwarp' | grep -qxF "wallwarp: $1"
+    ok $? "the log does not say \"$1\""
+    card_run 'wallwarp-pose monitor --bus can1 --seconds 1' | grep -q '^ *1  fault .* 0x200 '
+    ok $? "heartbeats don't have the fault configuration: $1"
+}
+
+shows_reason() {
+    # shellcheck disable=SC2046 # width and height
+    "$host/tests/board/picture_tool" safe $(sed -n 2p "$VM/seen.ppm") 1 qemu-virt "$1" | cmp -s - "$VM/seen.ppm"
+}
+
+# The display has had more than enough pictures, of which none is healthy.
+shows_many() {
+    local until=$((SECONDS + updates_seconds)) frames=0
+    while [ $SECONDS -lt $until ] && [ "$frames" -le $((2 * good_frames)) ]; do
+        frames=$(card_run 'wallwarp-pose monitor --bus can1 --seconds 1' |
+            awk '$1 == 1 && $2 == "fault" { n = $4 } END { print n + 0 }')
+    done
+    [ "$frames" -gt $((2 * good_frames)) ]
+}
+
+# The former version is well, but what is on the card is not: it says so, and is left again when its trial is over.
+test_broken_settings() {
+    local line wrong
+    line=$(card_run 'grep -n corners_mm /card/room.yaml')
+    card_edit s/corners_mm/corner_mm/ room.yaml
+    room_switch "$version"
+    goes_down "${later[@]}" && card_up 300 && bus_up
+    ok $? "the board does not start in $version"
+    tells "/card/room.yaml:${line%%:*}: boards[0].wall.corner_mm: unknown key, expected one of corners_mm"
+    card_edit '$acann: can1' wallwarp.yaml
+    line=$(card_run 'grep -n cann /card/wallwarp.yaml')
+    wrong="/etc/wallwarp/wallwarp.yaml:${line%%:*}: cann: unknown key, "
+    wrong+="expected one of node, room, key, can, camera, display, workers"
+    card_run 'systemctl restart wallwarp'
+    tells "$wrong"
+    shows_many && said | grep -qx trial=1
+    ok $? "it is marked good: $(said)"
+    card_run 'systemctl show wallwarp-trial.timer -p TimersMonotonic' | grep -q 'OnBootUSec=3min '
+    ok $? "the trial's end is not 3 minutes after the start"
+    restart_is_end
+    card_run 'mkdir -p /run/systemd/system/wallwarp-trial.timer.d
+        printf "[Timer]\nOnBootSec=\nOnBootSec=1\n" >/run/systemd/system/wallwarp-trial.timer.d/now.conf
+        systemctl daemon-reload; systemctl restart wallwarp-trial.timer'
+    goes_down "${later[@]}" && card_up 300 && bus_up && becomes "state=failed slot=B trial=0 running=2.0"
+    ok $? "it is not back: $(said)"
+    tells "$wrong"
+    card_edit '/^cann/d' wallwarp.yaml
+    card_edit s/corner_mm/corners_mm/ room.yaml
+    card_run 'systemctl restart wallwarp'
+    agent_heard && room_update --status | grep -q "failed: version $version in slot A did not prove itself"
+    ok $? "the operator is not told that it is back: $(said)"
+    settings_kept
+    ok $? "the settings are not what they were"
 }
 
 # installs NAME VERSION: from a stick that is plugged in.
@@ -82,12 +185,12 @@ trap vm_stop EXIT
 make_bundles
 ok $? "bundles can't be made"
 card_insert build/vm-update "$build/wallwarp-qemu-virt.img" || exit 1
-cp "$folder"/{stranger,old,other,cut,altered,small}.raucb "$VM/web/"
-# By its clock the certificate of good bundles has expired, too; what counts is when they were signed.
-card_power -rtc base=2035-01-01
-card_up 300
+cp "$folder"/{stranger,old,other,cut,altered,small,2}.raucb "$VM/web/"
+card_power "${later[@]}"
+card_up 300 && bus_up && agent_heard
 ok $? "the board does not start: $(tail -n 5 "$VM/console")"
 settings_make
+version=$(said | sed -n 's/^running=//p')
 
 refuses stranger 'refused: signature verification failed'
 refuses old 'refused: .*certificate has expired'
@@ -100,17 +203,8 @@ ok $? "the data partition can't be filled"
 refuses small 'the data partition is too full for'
 card_run 'rm /data/full /data/full2'
 
-installs 2 2.0
-request switch
-restarts 1 1
-ok $? "the board does not restart"
-[ "$(card_slot)" = B ]
-ok $? "it starts in slot $(card_slot), expected B"
-card_up 300 && becomes "state=idle slot=B trial=0 running=2.0"
-ok $? "2.0 is not marked good: it says $(said | tr '\n' ' ')"
-settings_kept
-ok $? "the settings are not what they were"
-
+test_bus
+test_broken_settings
 comes_back crash 3.0
 comes_back hang 4.0
 vm_has_event WATCHDOG
