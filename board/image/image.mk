@@ -81,11 +81,14 @@ flash: setup-flash ## Write a board's card: make BOARD=rpi4 flash DEV=/dev/sdX N
 	$(Q)$(MAKE) -s $(SUB) BOARD=host BUILD=build/host build/host/wallwarp
 	$(Q)env -u MAKEFLAGS board/image/flash.sh 'BOARD=$(BOARD)' $(call given,$(CARD))
 
+# The longest first, as they run side by side.
+VM_TESTS := $(addprefix tests/board/image/vm_,update.sh cuts.sh data.sh)
+VM_TESTS += $(filter-out $(VM_TESTS),$(wildcard tests/board/image/vm_*.sh))
 .PHONY: test-image
 test-image: setup-test setup-board setup-image ## Boot the image of the virtual board, update it, and cut its power CUTS=2 times; the last line says how many tests passed
 	$(Q)$(MAKE) $(SUB) BOARD=qemu-virt image
 	$(Q)$(MAKE) $(SUB) programs build/host/tests/board/picture_tool build/host/tests/board/wire_tool
-	$(Q)tests/run.sh build/test-image $(foreach t,$(IMAGE_TESTS) $(wildcard tests/board/image/vm_*.sh),'$(t) build/qemu-virt') \
+	$(Q)tests/run.sh build/test-image $(foreach t,$(VM_TESTS) $(IMAGE_TESTS),'$(t) build/qemu-virt') \
 	    'tests/board/image/on_used_card.sh build/qemu-virt/wallwarp-qemu-virt.img.xz'
 
 # Not of test-image: the Pi's image has firmware that is not free.
