@@ -159,7 +159,7 @@ fetch() {
     free=$(free_mib)
     rm -f "$fetched"
     if [ "$free" -lt 1 ]; then
-        tell failed 0 "the data partition is too full for $1: $(free_mib) MiB are free"
+        tell failed 0 "the data partition is too full for $1: $free MiB are free"
     else
         tell failed 0 "can't fetch $1: ${said:-not done in 15 minutes}"
     fi
