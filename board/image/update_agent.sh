@@ -66,7 +66,7 @@ tell() {
         printf 'message=%.128s\n' "$(printf '%s' "$3" | tr '\n' ' ' | LC_ALL=C tr -c ' -~' '?')"
     } >"$own/state"
     mv -T "$own/state" "$folder/state"
-    [ "$1" != failed ] || echo "update: $3" >&2
+    [ "$1" != failed ] || echo "<3>update: $3" >&2 # for the journal, which takes the level off: an error
 }
 
 # What is true after a request: a version waits or none does.

@@ -50,7 +50,13 @@ make_bundles() {
     bundle_make "$folder/hang.raucb" 4.0 '(sleep 3; kill -STOP $$) & exec /usr/local/bin/wallwarp.real "$@"'
 }
 
-# refuses NAME WHAT: the bundle of the web server is not installed, and the operator and the board's log are told this.
+# on_console PATTERN: the journal has said this there. What commands print begins with an @.
+on_console() {
+    tr -d '\r' <"$VM/console" | grep -av '^@' | grep -aq -- "$1"
+    ok $? "the console does not say \"$1\""
+}
+
+# refuses NAME WHAT: the bundle of the web server is not installed; the operator, the board's log and its console say this.
 refuses() {
     local said
     said=$(room_update --install "http://10.0.2.100/$1.raucb")
@@ -58,6 +64,7 @@ refuses() {
     ok $? "$1.raucb: the operator is told $said"
     card_run 'journalctl -b -o cat -u wallwarp-update' | grep -q "^update: $2"
     ok $? "$1.raucb: the board's log does not have \"$2\""
+    on_console "update: $2"
     [ "$(said | sed -n 's/^waiting=//p')" = "" ]
     ok $? "$1.raucb waits for the switch"
 }
@@ -97,12 +104,13 @@ test_bus() {
     ok $? "the settings are not what they were"
 }
 
-# tells REASON: on the wall, in the log and on the bus.
+# tells REASON: on the wall, in the log, on the console and on the bus.
 tells() {
     card_shows shows_reason "$1"
     ok $? "the wall does not say \"$1\""
     card_run 'journalctl -b -o cat -u wallwarp' | grep -qxF "wallwarp: $1"
     ok $? "the log does not say \"$1\""
+    on_console "wallwarp: ${1//\[/\\[}"
     card_run 'wallwarp-pose monitor --bus can1 --seconds 1' | grep -q '^ *1  fault .* 0x200 '
     ok $? "heartbeats don't have the fault configuration: $1"
 }
