@@ -52,9 +52,9 @@ card_power
 if says 60 'Hit any key to stop autoboot'; then
     types ''
     says 20 'U-Boot> '
-    types 'setenv more_arguments console=ttyS1,115200 loglevel=7 systemd.journald.forward_to_console=1'
+    types 'setenv more_arguments console=ttyS1,115200 loglevel=7 systemd.journald.forward_to_console=1 systemd.journald.max_level_console=info'
     types boot
-    says 400 'Found U-Boot script /boot.scr' 'wallwarp: starting slot A, starts left: 2' 'systemd[1]: Hostname set to <wallwarp>' \
+    says 400 'Found U-Boot script /boot.scr' 'wallwarp: starting slot A, starts left: 2' 'running in system mode' \
         'wallwarp: data: growing to the end of /dev/mmcblk0' 'Finished wallwarp-data.service' 'Finished wallwarp-grow.service' \
         'wallwarp: board "front" on rpi4' \
         'machine: this is raspberrypi,3-model-b, and the firmware that of board rpi4, expected brcm,bcm2711' \
