@@ -15,7 +15,9 @@ cp --sparse=always "$build/wallwarp-qemu-virt.img" "$VM/reader"
 card_power -drive "file=$VM/reader,format=raw,if=none,id=reader" -device usb-storage,drive=reader
 card_up 600
 ok $? "the board does not start"
-card_run 'udevadm settle; lsblk -nro NAME /dev/sda' | grep -q sda7
+# A reader is announced seconds after the shell is there.
+card_run 'for i in 1 2 3 4 5 6 7 8 9 10; do [ -e /dev/sda7 ] && break; sleep 1; done; udevadm settle
+    lsblk -nro NAME /dev/sda' | grep -q sda7
 ok $? "the second card is not seen: $(card_run 'lsblk -nro NAME')"
 for name in card state kernel-a root-a kernel-b root-b data; do
     device=$(card_run "readlink -f /dev/disk/by-partlabel/$name")
